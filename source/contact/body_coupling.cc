@@ -87,16 +87,16 @@ namespace talus
     const double                dt    = state.time_step;
     const ContactFacet<dim>    &facet = facets_.owned()[c];
     const FacetConstraint<dim> &at    = constraints_[c];
-    const Tensor<1, dim>        arm =
-      facet.centroid - obstacle.reference_point();
-    const auto impulse =
-      project(constraints_,
-              c,
-              facet,
-              impulses_[c],
-              constraints_.velocity(c) -
-                obstacle.velocity_at(facet.centroid, state.time + 0.5 * dt),
-              dt);
+    const Tensor<1, dim> arm = facet.centroid - obstacle.reference_point();
+    const auto           impulse =
+      projected_impulse(constraints_,
+                        c,
+                        facet,
+                        impulses_[c],
+                        constraints_.velocity(c) -
+                          obstacle.velocity_at(facet.centroid,
+                                               state.time + 0.5 * dt),
+                        dt);
     const Vector on_body = RigidBody<dim>::by_axis(
       arm, -impulse.normal * facet.normal - impulse.tangential);
     response.impulse += on_body;
@@ -115,8 +115,8 @@ namespace talus
       slip = impulse.tangential / length;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        Tensor<1, dim> tangent = -facet.normal[d] * facet.normal -
-                                 slip[d] * slip;
+        Tensor<1, dim> tangent =
+          -facet.normal[d] * facet.normal - slip[d] * slip;
         tangent[d] += 1.;
         add_direction(tangent, impulse.sticking * at.mass);
       }
@@ -149,19 +149,19 @@ namespace talus
 
 
   /// One iteration of Newton's method for the momentum of @p body. A step that
-  /// does not reduce the imbalance is halved: facets may have begun or ceased to
-  /// act.
+  /// does not reduce the imbalance is halved: facets may have begun or ceased
+  /// to act.
   template <int dim>
   void
   BodyCoupling<dim>::improve(const Response &response,
                              RigidBody<dim> &body,
                              Iterate        &iterate)
   {
-    const auto                  demand = body.demand();
-    Vector                      imbalance;
-    SymmetricTensor<2, n_axes> matrix  = response.stiffness;
-    double                      square  = 0;
-    iterate.is_final                    = true;
+    const auto                 demand = body.demand();
+    Vector                     imbalance;
+    SymmetricTensor<2, n_axes> matrix = response.stiffness;
+    double                     square = 0;
+    iterate.is_final                  = true;
     for (unsigned int i = 0; i < n_axes; ++i)
       if (body.is_free(i))
         {
@@ -210,9 +210,7 @@ namespace talus
         for (unsigned int b = 0; b < bodies.size(); ++b)
           if (!iterates_[b].is_final)
             {
-              improve(responses[b],
-                      obstacles_[bodies[b]].body(),
-                      iterates_[b]);
+              improve(responses[b], obstacles_[bodies[b]].body(), iterates_[b]);
               is_final = is_final && iterates_[b].is_final;
             }
         if (is_final)

@@ -268,12 +268,13 @@ namespace talus
         const Tensor<1, dim>     of_obstacle =
           obstacles_[facet.obstacle].velocity_at(facet.centroid,
                                                  state.time + 0.5 * dt);
-        const auto projected = project(constraints_,
-                                       c,
-                                       facet,
-                                       impulse,
-                                       constraints_.velocity(c) - of_obstacle,
-                                       dt);
+        const auto projected =
+          projected_impulse(constraints_,
+                            c,
+                            facet,
+                            impulse,
+                            constraints_.velocity(c) - of_obstacle,
+                            dt);
         add_impulse(c,
                     (projected.normal - impulse.normal) * facet.normal +
                       projected.tangential - impulse.tangential);

@@ -34,15 +34,16 @@ namespace talus
                   "t separated by semicolons [m/s]. The obstacle does not "
                   "rotate: x, y (, z) are those of the reference point at the "
                   "start. Empty: at rest, unless 'Mass' is given.");
-    add_parameter("Reference point",
-                  reference_point_text_,
-                  "Point about which moments are taken, as x,y or x,y,z, with "
-                  "`Coordinates` = map as easting, northing, height [m]; the "
-                  "point moves with the obstacle. Centre of mass of an obstacle "
-                  "with a mass. Empty: the centre of the obstacle, 0 along axes "
-                  "without two ends.",
-                  this->prm,
-                  Patterns::List(Patterns::Double(), 0, dim));
+    add_parameter(
+      "Reference point",
+      reference_point_text_,
+      "Point about which moments are taken, as x,y or x,y,z, with "
+      "`Coordinates` = map as easting, northing, height [m]; the "
+      "point moves with the obstacle. Centre of mass of an obstacle "
+      "with a mass. Empty: the centre of the obstacle, 0 along axes "
+      "without two ends.",
+      this->prm,
+      Patterns::List(Patterns::Double(), 0, dim));
   }
 
 

@@ -14,40 +14,44 @@ namespace talus
     : ParameterAcceptor("/Obstacles/" + name)
     , name_(name)
   {
-    const auto     numbers = Patterns::List(Patterns::Double(0.), 0, n_axes);
+    const auto        numbers = Patterns::List(Patterns::Double(0.), 0, n_axes);
     const std::string axes =
       dim == 2 ? "x, y and, if the obstacle rotates, rotation" : "x, y, z";
-    add_parameter("Mass",
-                  mass_,
-                  "Mass of the obstacle, in 2-D per metre [kg], with the added "
-                  "mass of water around it: the obstacle moves by the forces of "
-                  "the soil, 'Force' and springs. 0: the obstacle is at rest or "
-                  "moves with 'Velocity'.",
-                  this->prm,
-                  Patterns::Double(0.));
-    add_parameter("Free axes",
-                  free_axes_,
-                  "Axes along which an obstacle with a mass can move, separated "
-                  "by commas: x, y, z, and in 2-D rotation, about 'Reference "
-                  "point'. All other axes are held. Empty: x, y (, z).");
+    add_parameter(
+      "Mass",
+      mass_,
+      "Mass of the obstacle, in 2-D per metre [kg], with the added "
+      "mass of water around it: the obstacle moves by the forces of "
+      "the soil, 'Force' and springs. 0: the obstacle is at rest or "
+      "moves with 'Velocity'.",
+      this->prm,
+      Patterns::Double(0.));
+    add_parameter(
+      "Free axes",
+      free_axes_,
+      "Axes along which an obstacle with a mass can move, separated "
+      "by commas: x, y, z, and in 2-D rotation, about 'Reference "
+      "point'. All other axes are held. Empty: x, y (, z).");
     add_parameter("Moment of inertia",
                   moment_of_inertia_,
                   "Moment of inertia of an obstacle with the free axis "
                   "rotation, about 'Reference point', per metre [kg m^2].",
                   this->prm,
                   Patterns::Double(0.));
-    add_parameter("Force",
-                  force_text_,
-                  "External force on an obstacle with a mass, as its weight in "
-                  "water: components as expressions in t, separated by "
-                  "semicolons [N], in 2-D per metre; with the free axis "
-                  "rotation followed by the moment [N m]. x, y (, z) are those "
-                  "of the reference point at the start. Gravity does not act on "
-                  "obstacles. Empty: none.");
+    add_parameter(
+      "Force",
+      force_text_,
+      "External force on an obstacle with a mass, as its weight in "
+      "water: components as expressions in t, separated by "
+      "semicolons [N], in 2-D per metre; with the free axis "
+      "rotation followed by the moment [N m]. x, y (, z) are those "
+      "of the reference point at the start. Gravity does not act on "
+      "obstacles. Empty: none.");
     add_parameter("Spring stiffness",
                   stiffness_,
                   "Stiffness of the springs that hold an obstacle with a mass, "
-                  "by axis: " + axes +
+                  "by axis: " +
+                    axes +
                     " [N/m, N m/rad]. The springs are free of force at the "
                     "start. Empty: no springs.",
                   this->prm,
@@ -142,8 +146,8 @@ namespace talus
                                  "'; expected some of x, y, ",
                                  name_of_axis(2),
                                  ", separated by commas.",
-                                 dim == 3 ? " In 3-D obstacles do not rotate." :
-                                            "")));
+                                 dim == 3 ? " In 3-D obstacles do not rotate."
+                                          : "")));
         is_free_[axis] = true;
       }
     AssertThrow(dim == 3 || rotates() == (moment_of_inertia_ > 0),
@@ -256,9 +260,9 @@ namespace talus
           const double before = before_[axis], after = velocity_[axis];
           const Spring::Resistance resistance =
             springs_[axis].resistance(before, after, time_step_);
-          const double m       = inertia(axis);
-          result.impulse[axis] = m * (after - before) + resistance.impulse -
-                                 driven_[axis];
+          const double m = inertia(axis);
+          result.impulse[axis] =
+            m * (after - before) + resistance.impulse - driven_[axis];
           result.scale[axis] = m * (std::abs(after) + std::abs(before)) +
                                std::abs(resistance.impulse) +
                                std::abs(driven_[axis]);

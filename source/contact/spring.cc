@@ -40,9 +40,9 @@ namespace talus
                          const double impulse,
                          const double dt) const
   {
-    const double k       = 0.25 * dt * dt * stiffness_;
-    const double c       = 0.5 * dt * damping_;
-    const double start   = force_at(elongation_);
+    const double k        = 0.25 * dt * dt * stiffness_;
+    const double c        = 0.5 * dt * damping_;
+    const double start    = force_at(elongation_);
     const double momentum = (mass - c) * before + impulse;
     const double elastic =
       (momentum - k * before - dt * start) / (mass + c + k);
@@ -66,7 +66,7 @@ namespace talus
     const double velocity   = 0.5 * (before + after);
     const double slip =
       stiffness_ > 0 ? elongation - end / stiffness_ - slip_ : 0.;
-    force_ = -0.5 * (start + end) - damping_ * velocity;
+    force_      = -0.5 * (start + end) - damping_ * velocity;
     elongation_ = elongation;
     // Within the yield force the difference is round-off.
     const bool yields = std::abs(end) >= yield_force_;
@@ -90,10 +90,7 @@ namespace talus
   void
   Spring::list_state(const std::string &name, StateList &list)
   {
-    list.add("spring elongation of " + name,
-             "",
-             elongation_,
-             Reduction::equal);
+    list.add("spring elongation of " + name, "", elongation_, Reduction::equal);
     list.add("spring slip of " + name, "", slip_, Reduction::equal);
     list.add("spring force of " + name, "", force_, Reduction::equal);
   }

@@ -17,8 +17,8 @@ namespace talus
   ///
   /// A facet pushes soil and body apart by the same impulse. A body that moved
   /// by the impulses of the previous step would be unstable if lighter than the
-  /// soil at its facets (added mass). So each sweep computes the velocity of the
-  /// body with which its momentum balances exactly the impulses that the sweep
+  /// soil at its facets (added mass). So each sweep computes the velocity of
+  /// the body with which its momentum balances exactly the impulses that the sweep
   /// will give to the facets. The impulses are piecewise linear in the velocity
   /// and never help the motion, so Newton's method finds the velocity in a few
   /// iterations, with one sum over the ranks in each.
@@ -62,14 +62,15 @@ namespace talus
     /// Response of the facets of a body to its velocity, by axis.
     struct Response
     {
-      Vector impulse; ///< of the soil on the body, N s
+      Vector impulse; ///< impulse of the soil on the body, N s
       Vector scale;   ///< sum of the absolute impulses, N s
       /// Decrease of the impulse by the velocity, kg.
       dealii::SymmetricTensor<2, n_axes> stiffness;
 
       /// Number of values in a message.
       static constexpr unsigned int n_values =
-        2 * n_axes + dealii::SymmetricTensor<2, n_axes>::n_independent_components;
+        2 * n_axes +
+        dealii::SymmetricTensor<2, n_axes>::n_independent_components;
 
       void
       append_to(std::vector<double> &values) const;
@@ -80,8 +81,8 @@ namespace talus
     /// State of Newton's method for one body.
     struct Iterate
     {
-      Vector step;                 ///< to the velocity that is tried, m/s
-      double smallest_error = 0;   ///< of an accepted velocity, sqrt(J)
+      Vector step;               ///< to the velocity that is tried, m/s
+      double smallest_error = 0; ///< smallest imbalance so far, sqrt(J)
       bool   has_begun      = false;
       bool   is_final       = false;
     };
@@ -103,7 +104,7 @@ namespace talus
 
     // Data of one step, by entry of Obstacles::bodies()
     std::vector<std::vector<unsigned int>> facets_of_body_; ///< loaded facets
-    std::vector<Iterate> iterates_;
+    std::vector<Iterate>                   iterates_;
   };
 } // namespace talus
 

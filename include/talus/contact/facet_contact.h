@@ -208,12 +208,9 @@ namespace talus
     double                     previous_time_step_ = 0; ///< s
 
     // Data of one step
-    ContactNodes<dim>          nodes_{facets_};
-    FacetConstraints<dim>      constraints_{obstacles_, facets_, nodes_, slip_};
-    BodyCoupling<dim>          bodies_{obstacles_,
-                              facets_,
-                              constraints_,
-                              impulses_};
+    ContactNodes<dim>     nodes_{facets_};
+    FacetConstraints<dim> constraints_{obstacles_, facets_, nodes_, slip_};
+    BodyCoupling<dim>     bodies_{obstacles_, facets_, constraints_, impulses_};
     std::vector<ImpulseInside> impulses_inside_;
   };
 } // namespace talus

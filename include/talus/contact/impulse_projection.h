@@ -55,21 +55,20 @@ namespace talus
   /// @param dt time step, s
   template <int dim>
   ProjectedImpulse<dim>
-  project(const FacetConstraints<dim>  &constraints,
-          const unsigned int            c,
-          const ContactFacet<dim>      &facet,
-          const FacetImpulse<dim>      &impulse,
-          const dealii::Tensor<1, dim> &u,
-          const double                  dt)
+  projected_impulse(const FacetConstraints<dim>  &constraints,
+                    const unsigned int            c,
+                    const ContactFacet<dim>      &facet,
+                    const FacetImpulse<dim>      &impulse,
+                    const dealii::Tensor<1, dim> &u,
+                    const double                  dt)
   {
     const FacetConstraint<dim>  &constraint = constraints[c];
     const double                 u_n        = u * facet.normal;
     const dealii::Tensor<1, dim> u_t        = u - u_n * facet.normal;
     ProjectedImpulse<dim>        result;
-    result.normal =
-      std::max(0.,
-               impulse.normal -
-                 constraint.normal_mass * (constraint.gap / dt + u_n));
+    result.normal = std::max(0.,
+                             impulse.normal - constraint.normal_mass *
+                                                (constraint.gap / dt + u_n));
     const dealii::Tensor<1, dim> trial =
       impulse.tangential - constraint.mass * u_t;
     const double length = trial.norm();

@@ -158,8 +158,8 @@ namespace talus
     dealii::Tensor<1, dim>
     velocity_at(const dealii::Point<dim> &x, double t) const
     {
-      return body_.exists() ? body_.velocity_at(x - reference_point()) :
-                              velocity(t);
+      return body_.exists() ? body_.velocity_at(x - reference_point())
+                            : velocity(t);
     }
 
     /// Move an obstacle with a prescribed velocity from time @p t, s, by a step

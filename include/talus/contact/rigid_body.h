@@ -153,11 +153,11 @@ namespace talus
     /// Energies of a step, J.
     struct Works
     {
-      double kinetic      = 0; ///< kinetic energy after the step
-      double stored       = 0; ///< elastic energy of the springs after the step
-      double dissipated   = 0; ///< lost by springs that yield and by dashpots
-      double of_force     = 0; ///< work of the external force
-      double of_soil      = 0; ///< work of the soil on the body
+      double kinetic    = 0; ///< kinetic energy after the step
+      double stored     = 0; ///< elastic energy of the springs after the step
+      double dissipated = 0; ///< lost by springs that yield and by dashpots
+      double of_force   = 0; ///< work of the external force
+      double of_soil    = 0; ///< work of the soil on the body
 
       Works &
       operator+=(const Works &other);
@@ -208,7 +208,7 @@ namespace talus
 
     std::array<bool, n_axes>         is_free_{};
     std::array<Spring, n_axes>       springs_;
-    std::unique_ptr<Expression<dim>> force_; ///< N, N m; null: none
+    std::unique_ptr<Expression<dim>> force_;           ///< N, N m; null: none
     dealii::Point<dim>               reference_point_; ///< at the start, m
 
     Vector velocity_;

@@ -14,8 +14,8 @@ namespace talus
   /// forces are moments, N m, and lengths are angles, rad.
   ///
   /// A step takes the velocity from v- to v+, both at the middles of steps. The
-  /// elongation at the middle of a step changes by dt (v- + v+)/2, and the force
-  /// in the step is the mean of the forces at both elongations (average
+  /// elongation at the middle of a step changes by dt (v- + v+)/2, and the
+  /// force in the step is the mean of the forces at both elongations (average
   /// acceleration, @cite newmark1959): stable for any stiffness, and the works
   /// of a step balance to round-off.
   class Spring
@@ -44,8 +44,8 @@ namespace talus
     Resistance
     resistance(double before, double after, double dt) const;
 
-    /// Return the velocity, m/s, of @p mass, kg, after a step of @p dt, s, which
-    /// begins with the velocity @p before, m/s. @p impulse: of all other
+    /// Return the velocity, m/s, of @p mass, kg, after a step of @p dt, s,
+    /// which begins with the velocity @p before, m/s. @p impulse: of all other
     /// forces, N s.
     double
     velocity_after(double mass, double before, double impulse, double dt) const;

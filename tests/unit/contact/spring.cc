@@ -11,7 +11,7 @@
 
 using namespace talus;
 
-namespace
+namespace spring_test
 {
   constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -41,49 +41,49 @@ namespace
       }
     return lost;
   }
-} // namespace
 
 
 
-// The longest step is many periods long.
-TEST(Spring, WorksBalance)
-{
-  for (const double dt : {0.01, 0.3, 20.})
-    {
-      EXPECT_NEAR(expect_balance({40., 0., infinite}, 2., dt), 0., 1e-12);
-      EXPECT_GT(expect_balance({40., 3., infinite}, 2., dt), 0.1);
-      EXPECT_GT(expect_balance({40., 0., 5.}, 2., dt), 0.1);
-      EXPECT_GT(expect_balance({40., 3., 5.}, 2., dt), 0.1);
-      EXPECT_EQ(expect_balance({0., 0., infinite}, 2., dt), 0.);
-    }
-}
+  // The longest step is many periods long.
+  TEST(Spring, WorksBalance)
+  {
+    for (const double dt : {0.01, 0.3, 20.})
+      {
+        EXPECT_NEAR(expect_balance({40., 0., infinite}, 2., dt), 0., 1e-12);
+        EXPECT_GT(expect_balance({40., 3., infinite}, 2., dt), 0.1);
+        EXPECT_GT(expect_balance({40., 0., 5.}, 2., dt), 0.1);
+        EXPECT_GT(expect_balance({40., 3., 5.}, 2., dt), 0.1);
+        EXPECT_EQ(expect_balance({0., 0., infinite}, 2., dt), 0.);
+      }
+  }
 
 
 
-TEST(Spring, ForceIsLimited)
-{
-  Spring spring(100., 0., 7.);
-  // To an elongation of 1 m and back to 0.
-  spring.advance(2., 0., 1.);
-  EXPECT_NEAR(spring.stored_energy(), 0.5 * 7. * 0.07, 1e-12);
-  EXPECT_NEAR(spring.slip(), 0.93, 1e-12);
-  EXPECT_EQ(spring.force(), -3.5); // mean of 0 and 7 N
-  spring.advance(0., -2., 1.);
-  EXPECT_NEAR(spring.slip(), 0.07, 1e-12);
-  EXPECT_NEAR(spring.force(), 0., 1e-12);
-}
+  TEST(Spring, ForceIsLimited)
+  {
+    Spring spring(100., 0., 7.);
+    // To an elongation of 1 m and back to 0.
+    spring.advance(2., 0., 1.);
+    EXPECT_NEAR(spring.stored_energy(), 0.5 * 7. * 0.07, 1e-12);
+    EXPECT_NEAR(spring.slip(), 0.93, 1e-12);
+    EXPECT_EQ(spring.force(), -3.5); // mean of 0 and 7 N
+    spring.advance(0., -2., 1.);
+    EXPECT_NEAR(spring.slip(), 0.07, 1e-12);
+    EXPECT_NEAR(spring.force(), 0., 1e-12);
+  }
 
 
 
-TEST(Spring, SlopeOfTheResistance)
-{
-  const Spring     spring(100., 3., 7.);
-  constexpr double dt = 0.1, step = 1e-6;
-  for (const double v : {0.3, -0.4, 5., -6.})
-    {
-      const double slope = (spring.resistance(0.1, v + step, dt).impulse -
-                            spring.resistance(0.1, v - step, dt).impulse) /
-                           (2 * step);
-      EXPECT_NEAR(spring.resistance(0.1, v, dt).slope, slope, 1e-8);
-    }
-}
+  TEST(Spring, SlopeOfTheResistance)
+  {
+    const Spring     spring(100., 3., 7.);
+    constexpr double dt = 0.1, step = 1e-6;
+    for (const double v : {0.3, -0.4, 5., -6.})
+      {
+        const double slope = (spring.resistance(0.1, v + step, dt).impulse -
+                              spring.resistance(0.1, v - step, dt).impulse) /
+                             (2 * step);
+        EXPECT_NEAR(spring.resistance(0.1, v, dt).slope, slope, 1e-8);
+      }
+  }
+} // namespace spring_test
