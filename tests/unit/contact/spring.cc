@@ -30,14 +30,19 @@ namespace spring_test
         const double impulse = 50. * random(rng) * dt;
         const double after   = spring.velocity_after(mass, v, impulse, dt);
         const Spring::Resistance resistance = spring.resistance(v, after, dt);
-        EXPECT_NEAR(mass * (after - v), impulse - resistance.impulse, 1e-10);
+        const double             round_off =
+          1e-13 * (mass * (std::abs(v) + std::abs(after)) +
+                   1e3 * dt * dt * (std::abs(v) + std::abs(after)) + 1.);
+        EXPECT_NEAR(mass * (after - v),
+                    impulse - resistance.impulse,
+                    round_off);
         work += impulse * 0.5 * (v + after);
         lost += spring.advance(v, after, dt);
-        EXPECT_NEAR(spring.force() * dt, -resistance.impulse, 1e-10);
+        EXPECT_NEAR(spring.force() * dt, -resistance.impulse, round_off);
         v = after;
         EXPECT_NEAR(0.5 * mass * v * v + spring.stored_energy() + lost,
                     work,
-                    1e-9);
+                    1e-12 * (1. + std::abs(work) + lost));
       }
     return lost;
   }
@@ -49,7 +54,7 @@ namespace spring_test
   {
     for (const double dt : {0.01, 0.3, 20.})
       {
-        EXPECT_NEAR(expect_balance({40., 0., infinite}, 2., dt), 0., 1e-12);
+        EXPECT_EQ(expect_balance({40., 0., infinite}, 2., dt), 0.);
         EXPECT_GT(expect_balance({40., 3., infinite}, 2., dt), 0.1);
         EXPECT_GT(expect_balance({40., 0., 5.}, 2., dt), 0.1);
         EXPECT_GT(expect_balance({40., 3., 5.}, 2., dt), 0.1);
