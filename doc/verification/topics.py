@@ -29,6 +29,7 @@ PAGES = [
         ("Thin layers", ["ThinLayers"]),
         ("Obstacles", ["BlockOnPlane", "Arc", "Container", "Bowl"]),
         ("Pipes in clay", ["Pipe", "PipeRefined"]),
+        ("Obstacles moved by forces", ["BodyOnSprings", "DraggedPipe"]),
         ("Water", ["BlockInWater"]),
         ("Runout, rest and outflow", ["Runout", "Rest", "Outflow"]),
     ]),

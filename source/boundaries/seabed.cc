@@ -90,7 +90,8 @@ namespace talus
                      const unsigned int node,
                      const double       area) const
   {
-    return friction_.limit(maximum_shear_stress(node),
+    const double share = share_left_ ? share_left_(face, node) : 1.;
+    return friction_.limit(share * maximum_shear_stress(node),
                            area,
                            keeps_slip() ? slip_.state(place_of(face, node))
                                         : SurfaceState());

@@ -258,7 +258,8 @@ namespace talus
     const double         dt = state.time_step;
     const Tensor<1, dim> u =
       velocity(facet, constraint) -
-      obstacles_[facet.obstacle].velocity(state.time + 0.5 * dt);
+      obstacles_[facet.obstacle].velocity_at(facet.centroid,
+                                             state.time + 0.5 * dt);
     const double slip = (u - (u * facet.normal) * facet.normal).norm() * dt;
     return InterfaceFriction::averaging_weight(slip, facet.cell_size);
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/contact/facet_contact.h>
+#include <talus/contact/impulse_projection.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -19,29 +20,6 @@ namespace talus
     // the force on a dragged pipe would be 3 to 5 % too small. More than four
     // sweeps do not change the force.
     constexpr unsigned int n_sweeps_at_rest = 1, n_sweeps_moving = 4;
-
-    /// Running mean of the normal impulse including @p newest, the normal
-    /// impulse of the current step, N s.
-    template <int dim>
-    double
-    mean_normal(const FacetImpulse<dim>    &impulse,
-                const FacetConstraint<dim> &constraint,
-                const double                newest)
-    {
-      return impulse.mean_normal +
-             constraint.averaging_weight * (newest - impulse.mean_normal);
-    }
-
-
-
-    /// Return @p v, shortened to the length @p limit if longer.
-    template <int dim>
-    Tensor<1, dim>
-    cut_to_length(const Tensor<1, dim> &v, const double limit)
-    {
-      const double length = v.norm();
-      return length > limit ? v * (limit / length) : v;
-    }
   } // namespace
 
 
@@ -136,6 +114,7 @@ namespace talus
     slip_.begin_step(state.communicator());
     nodes_.hold_walls(state, boundaries_);
     find_constraints(state);
+    bodies_.begin_step(state);
     warm_start(state);
     const unsigned int n_sweeps = (!has_begun_         ? n_first_sweeps
                                    : obstacles_.move() ? n_sweeps_moving
@@ -272,43 +251,35 @@ namespace talus
 
 
 
-  // Project each impulse: a normal impulse only pushes, and friction is at most
-  // the limit of the surface. A facet with a gap lets the soil approach by the
-  // gap in this step.
+  // Bodies with a mass get the velocities with which their momenta balance the
+  // impulses of this sweep.
   template <int dim>
   void
   FacetContact<dim>::sweep(const State<dim> &state)
   {
-    const double                dt = state.time_step;
-    std::vector<Tensor<1, dim>> of_obstacle;
-    for (unsigned int k = 0; k < obstacles_.size(); ++k)
-      of_obstacle.push_back(obstacles_[k].velocity(state.time + 0.5 * dt));
+    const double dt = state.time_step;
+    bodies_.update_velocities(state);
     for (const unsigned int c : constraints_.loaded())
       {
-        const FacetConstraint<dim> &constraint = constraints_[c];
-        if (constraint.normal_mass == 0)
+        if (constraints_[c].normal_mass == 0)
           continue;
         const ContactFacet<dim> &facet   = facets_.owned()[c];
         FacetImpulse<dim>       &impulse = impulses_[c];
-        const Tensor<1, dim>     u =
-          constraints_.velocity(c) - of_obstacle[facet.obstacle];
-        const double         u_n = u * facet.normal;
-        const Tensor<1, dim> u_t = u - u_n * facet.normal;
-
-        const double normal =
-          std::max(0.,
-                   impulse.normal -
-                     constraint.normal_mass * (constraint.gap / dt + u_n));
-        const Tensor<1, dim> trial = impulse.tangential - constraint.mass * u_t;
-        const Tensor<1, dim> tangential = cut_to_length(
-          trial,
-          constraints_.friction_impulse(
-            c, trial.norm(), mean_normal(impulse, constraint, normal), dt));
+        const Tensor<1, dim>     of_obstacle =
+          obstacles_[facet.obstacle].velocity_at(facet.centroid,
+                                                 state.time + 0.5 * dt);
+        const auto projected =
+          projected_impulse(constraints_,
+                            c,
+                            facet,
+                            impulse,
+                            constraints_.velocity(c) - of_obstacle,
+                            dt);
         add_impulse(c,
-                    (normal - impulse.normal) * facet.normal + tangential -
-                      impulse.tangential);
-        impulse.normal     = normal;
-        impulse.tangential = tangential;
+                    (projected.normal - impulse.normal) * facet.normal +
+                      projected.tangential - impulse.tangential);
+        impulse.normal     = projected.normal;
+        impulse.tangential = projected.tangential;
       }
     nodes_.update_velocities();
   }
@@ -334,7 +305,8 @@ namespace talus
         const double         may_move =
           -constraints_.gap_inside(state.grid, inside) / dt;
         const Tensor<1, dim> v = state.nodes.velocity(inside.node);
-        const double v_n = (v - obstacle.velocity(state.time + 0.5 * dt)) * n;
+        const double         v_n =
+          (v - obstacle.velocity_at(inside.place, state.time + 0.5 * dt)) * n;
         if (v_n < may_move)
           impulses_inside_.push_back(
             {inside.node,
@@ -404,6 +376,7 @@ namespace talus
         state.accounts.energy("contact work") += step.contact_work;
       }
     add_to_reactions(steps, state.communicator(), reactions_);
+    bodies_.end_step(reactions_, state);
   }
 
 

@@ -4,6 +4,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -17,6 +18,7 @@ namespace talus
     , name_(name)
     , shape_parameters_("/Obstacles/" + name)
     , friction_("/Obstacles/" + name)
+    , body_(name)
   {
     add_parameter(
       "Maximum shear stress",
@@ -31,15 +33,17 @@ namespace talus
                   "Components of the velocity of the obstacle, expressions in "
                   "t separated by semicolons [m/s]. The obstacle does not "
                   "rotate: x, y (, z) are those of the reference point at the "
-                  "start. Empty: at rest.");
-    add_parameter("Reference point",
-                  reference_point_text_,
-                  "Point about which moments are taken, as x,y or x,y,z, with "
-                  "`Coordinates` = map as easting, northing, height [m]; the "
-                  "point moves with the obstacle. Empty: the centre of the "
-                  "obstacle, 0 along axes without two ends.",
-                  this->prm,
-                  Patterns::List(Patterns::Double(), 0, dim));
+                  "start. Empty: at rest, unless 'Mass' is given.");
+    add_parameter(
+      "Reference point",
+      reference_point_text_,
+      "Point about which moments are taken, as x,y or x,y,z, with "
+      "`Coordinates` = map as easting, northing, height [m]; the "
+      "point moves with the obstacle. Centre of mass of an obstacle "
+      "with a mass. Empty: the centre of the obstacle, 0 along axes "
+      "without two ends.",
+      this->prm,
+      Patterns::List(Patterns::Double(), 0, dim));
   }
 
 
@@ -91,33 +95,63 @@ namespace talus
                                                     velocity_text_,
                                                     dim,
                                                     constants);
-    check_motion();
     prepare_reference_point();
+    body_.prepare(constants, reference_point_);
+    check_motion();
     velocity(0.); // throws here rather than in the first step
   }
 
 
 
-  /// Throw ExcUser if the obstacle has properties that belong to an obstacle at
-  /// rest, or two velocities.
+  namespace
+  {
+    template <int dim>
+    bool
+    is_bounded(const Box<dim> &box)
+    {
+      bool result = true;
+      for (unsigned int d = 0; d < dim; ++d)
+        result = result && std::isfinite(box.length(d));
+      return result;
+    }
+  } // namespace
+
+
+
+  /// Check the motion against the other parameters. Throws ExcUser.
   template <int dim>
   void
   Obstacle<dim>::check_motion() const
   {
-    AssertThrow(!prescribed_velocity_ || velocity_text_.empty(),
-                ExcUser(text(path("Velocity"),
-                             " = ",
-                             velocity_text_,
+    const std::string motion = path(body_.exists() ? "Mass" : "Velocity");
+    AssertThrow(!prescribed_velocity_ ||
+                  (velocity_text_.empty() && !body_.exists()),
+                ExcUser(text(motion,
                              " is given, but the program that leads the run "
                              "prescribes the velocity by a function, too. "
                              "Remove one of the two.")));
+    AssertThrow(!body_.exists() || velocity_ == nullptr,
+                ExcUser(text(path("Mass"),
+                             " and ",
+                             path("Velocity"),
+                             " = ",
+                             velocity_text_,
+                             " are given: an obstacle moves either by the "
+                             "forces that act or with a prescribed velocity. "
+                             "Remove one of the entries.")));
+    AssertThrow(!body_.rotates() || is_bounded(shape_->bounding_box()),
+                ExcUser(text(path("Free axes"),
+                             " lists rotation, but the shape has no ends, so "
+                             "that the surface far away would move without "
+                             "bound. Use a shape with ends, or remove "
+                             "rotation.")));
     AssertThrow(!moves() || !depends_on_depth(),
                 ExcUser(text(path("Maximum shear stress"),
                              " = ",
                              maximum_shear_stress_text_,
                              " depends on `depth`, the depth at the start, but "
                              "the obstacle moves (",
-                             path("Velocity"),
+                             motion,
                              "). Give a stress without `depth`.")));
     AssertThrow(!friction_.softens() || limits_shear_stress(),
                 ExcUser(text(path("Slip to remould"),
@@ -129,7 +163,7 @@ namespace talus
     AssertThrow(!friction_.softens() || !moves(),
                 ExcUser(text(path("Slip to remould"),
                              " is given, but the obstacle moves (",
-                             path("Velocity"),
+                             motion,
                              "). Slip is kept by place, and only surfaces at "
                              "rest can soften. Remove one of the entries.")));
   }
@@ -192,11 +226,41 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Bounding box of @p box turned by @p angle, rad, about @p centre, m.
+    template <int dim>
+    Box<dim>
+    box_around_turned(const Box<dim>   &box,
+                      const Point<dim> &centre,
+                      const double      angle)
+    {
+      Box<dim> result{centre, centre};
+      for (unsigned int v = 0; v < (1u << dim); ++v)
+        {
+          Point<dim> corner;
+          for (unsigned int d = 0; d < dim; ++d)
+            corner[d] = (v & (1u << d)) ? box.upper[d] : box.lower[d];
+          const Point<dim> x = centre + rotated<dim>(corner - centre, angle);
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              result.lower[d] = std::min(result.lower[d], x[d]);
+              result.upper[d] = std::max(result.upper[d], x[d]);
+            }
+        }
+      return result;
+    }
+  } // namespace
+
+
+
   template <int dim>
   Box<dim>
   Obstacle<dim>::bounding_box() const
   {
     Box<dim> box = shape_->bounding_box();
+    if (angle_ != 0.)
+      box = box_around_turned(box, reference_point_, angle_);
     box.lower += displacement_;
     box.upper += displacement_;
     return box;
@@ -210,7 +274,7 @@ namespace talus
   double
   Obstacle<dim>::maximum_shear_stress(const Point<dim> &x) const
   {
-    return limits_shear_stress() ? maximum_shear_stress_->at(x - displacement_)
+    return limits_shear_stress() ? maximum_shear_stress_->at(at_start(x))
                                  : std::numeric_limits<double>::infinity();
   }
 
@@ -222,8 +286,10 @@ namespace talus
   {
     if (prescribed_velocity_)
       return velocity_of_step_;
+    if (body_.exists())
+      return body_.velocity_at(Tensor<1, dim>());
     Tensor<1, dim> v;
-    if (moves())
+    if (velocity_)
       for (unsigned int d = 0; d < dim; ++d)
         v[d] = velocity_->finite_value(reference_point_, t, d);
     AssertThrow(v.norm_square() <= 1e12,
@@ -263,16 +329,20 @@ namespace talus
                                  " s; expected at most 1e6 m/s. Correct the "
                                  "function.")));
       }
-    displacement_ += dt * velocity(t + 0.5 * dt);
+    if (velocity_ || prescribed_velocity_)
+      displacement_ += dt * velocity(t + 0.5 * dt);
   }
 
 
 
   template <int dim>
-  Point<dim>
-  Obstacle<dim>::reference_point() const
+  void
+  Obstacle<dim>::advance_body(const double dt)
   {
-    return reference_point_ + displacement_;
+    for (unsigned int d = 0; d < dim; ++d)
+      displacement_[d] += dt * body_.velocity()[d];
+    if (body_.rotates())
+      angle_ += dt * body_.velocity()[2];
   }
 
 
@@ -286,6 +356,9 @@ namespace talus
                         displacement_,
                         dim,
                         Reduction::equal);
+    if (body_.rotates())
+      list.add("angle of obstacle " + name_, "rad", angle_, Reduction::equal);
+    body_.list_state(list);
   }
 
 

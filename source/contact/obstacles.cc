@@ -31,6 +31,10 @@ namespace talus
   {
     for (const auto &obstacle : obstacles_)
       obstacle->prepare(constants, surfaces);
+    bodies_.clear();
+    for (unsigned int k = 0; k < obstacles_.size(); ++k)
+      if (obstacles_[k]->body().exists())
+        bodies_.push_back(k);
     locate();
   }
 
@@ -202,9 +206,20 @@ namespace talus
   Obstacles<dim>::advance(const double t, const double dt)
   {
     for (const auto &obstacle : obstacles_)
-      if (obstacle->moves())
-        obstacle->advance(t, dt);
+      obstacle->advance(t, dt);
     if (move())
+      locate();
+  }
+
+
+
+  template <int dim>
+  void
+  Obstacles<dim>::advance_bodies(const double dt)
+  {
+    for (const unsigned int k : bodies_)
+      obstacles_[k]->advance_body(dt);
+    if (!bodies_.empty())
       locate();
   }
 

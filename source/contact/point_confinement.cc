@@ -244,8 +244,8 @@ namespace talus
     if (distance >= 0)
       return false;
     const Obstacle<dim> &obstacle = obstacles_[candidate.obstacle];
-    const Tensor<1, dim> drift    = dt * obstacle.velocity(time + 0.5 * dt);
-    const double         inwards  = (drift - (x - candidate.place)) * normal;
+    const Tensor<1, dim> drift = dt * obstacle.velocity_at(x, time + 0.5 * dt);
+    const double         inwards = (drift - (x - candidate.place)) * normal;
     if (inwards <= 0)
       return false;
     x += std::min(inwards, -distance) * normal;

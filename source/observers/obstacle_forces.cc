@@ -93,6 +93,36 @@ namespace talus
 
 
 
+  /// List motion and springs of obstacle @p k, if it has a mass.
+  template <int dim>
+  void
+  ObstacleForces<dim>::list_motion(const unsigned int k, Quantities &row) const
+  {
+    const Obstacle<dim>  &obstacle = contact_.obstacles()[k];
+    const RigidBody<dim> &body     = obstacle.body();
+    if (!body.exists())
+      return;
+    const auto append = [&](const std::string &what,
+                            const std::string &unit,
+                            const auto        &by_axis) {
+      Tensor<1, dim> v;
+      for (unsigned int d = 0; d < dim; ++d)
+        v[d] = by_axis[d];
+      append_vector<dim>(row, name(k) + ' ' + what, unit, v);
+    };
+    append("velocity", "m/s", body.velocity());
+    append("spring force", "N", body.spring_force());
+    append("spring slip", "m", body.spring_slip());
+    if (!body.rotates())
+      return;
+    row.push_back({name(k) + " rotation", "rad", obstacle.angle()});
+    row.push_back({name(k) + " angular velocity", "rad/s", body.velocity()[2]});
+    row.push_back({name(k) + " spring moment", "N m", body.spring_force()[2]});
+    row.push_back({name(k) + " spring rotation", "rad", body.spring_slip()[2]});
+  }
+
+
+
   template <int dim>
   Quantities
   ObstacleForces<dim>::evaluate(const State<dim> &state) const
@@ -106,6 +136,7 @@ namespace talus
                            name(k) + " displacement",
                            "m",
                            contact_.obstacles()[k].displacement());
+        list_motion(k, row);
         list_penetration(k, own[k], state, row);
       }
     return row;

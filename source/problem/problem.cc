@@ -38,6 +38,9 @@ namespace talus
     , damping(interactions.template add<Damping<dim>>(boundaries,
                                                       contact.feels_obstacle()))
     , water(interactions.template add<Water<dim>>(materials, contact))
+    , hydroplaning(interactions.template add<Hydroplaning<dim>>(materials,
+                                                                water,
+                                                                boundaries))
   {
     interactions.template add<SeabedGaps<dim>>(boundaries);
     interactions.template add<SurfaceWeakening<dim>>(trigger,
@@ -77,6 +80,7 @@ namespace talus
     boundaries.seabed().slip().set_region(region);
     contact.set_region(region);
     boundaries.parse(inputs_.constants);
+    hydroplaning.check();
     obstacles.prepare(inputs_.constants, &inputs_.surfaces);
   }
 

@@ -10,6 +10,7 @@
 #include <talus/observers/obstacle_forces.h>
 #include <talus/observers/obstacles_output.h>
 #include <talus/simulation/contact_area_remark.h>
+#include <talus/simulation/hydroplaning_remark.h>
 #include <talus/simulation/pace.h>
 #include <talus/simulation/shear_bands.h>
 #include <talus/simulation/simulation.h>
@@ -61,6 +62,8 @@ namespace talus
     output_.add_row_observer(std::make_unique<ShearBands<dim>>(problem_));
     output_.add_row_observer(
       std::make_unique<SplitLimitRemark<dim>>(scheme_.splitter(), log_));
+    output_.add_row_observer(
+      std::make_unique<HydroplaningRemark<dim>>(problem_.hydroplaning, log_));
     auto contact_area =
       std::make_unique<ContactAreaRemark<dim>>(problem_.boundaries,
                                                problem_.contact,

@@ -78,6 +78,56 @@ class BadInputMotion(Case):
             with self.subTest(settings):
                 self.refuse_set(settings, *words)
 
+    def test_obstacle_with_mass(self):
+        ball = ["Obstacles/Names=ball", "Obstacles/ball/Shape=ball",
+                "Obstacles/ball/Radius=1"]
+        plane = ["Obstacles/Names=ball", "Obstacles/ball/Shape=half-plane"]
+        mass = "Mass=10"
+        turns = ["Free axes=x, rotation", "Moment of inertia=5"]
+        for shape, entries, *words in (
+                (ball, ["Mass=-1"], "'Mass'", "'-1'"),
+                (ball, ["Free axes=x"], "'Obstacles/ball/Free axes' is given",
+                 "'Obstacles/ball/Mass' is 0"),
+                (ball, ["Force=1; 0"], "'Obstacles/ball/Force'", "Mass' is 0"),
+                (ball, ["Spring stiffness=1, 1"], "Spring stiffness' is given",
+                 "Give the mass in kg"),
+                (ball, ["Spring damping=1, 1"], "Spring damping' is given",
+                 "Mass' is 0"),
+                (ball, ["Moment of inertia=1"], "Moment of inertia' is given",
+                 "Mass' is 0"),
+                (ball, [mass, "Velocity=1; 0"], "'Obstacles/ball/Mass' and",
+                 "'Obstacles/ball/Velocity' = 1; 0", "Remove one"),
+                (ball, [mass, "Free axes=x, z"], "the axis 'z'",
+                 "some of x, y, rotation"),
+                (ball, [mass, "Free axes=x, rotation"],
+                 "'Obstacles/ball/Moment of inertia' is 0", "needs both"),
+                (ball, [mass, "Moment of inertia=1"], "axis rotation is not listed",
+                 "needs both"),
+                (plane, [mass, *turns], "the shape has no ends"),
+                (ball, [mass, "Force=1"], "'Obstacles/ball/Force'",
+                 "2 are needed"),
+                (ball, [mass, "Force=1; 0; 0"], "'Obstacles/ball/Force'",
+                 "2 are needed"),
+                (ball, [mass, "Force=1/t; 0"], "'Obstacles/ball/Force'",
+                 "finite number"),
+                (ball, [mass, "Spring stiffness=1"],
+                 "'Obstacles/ball/Spring stiffness' has 1 numbers", "expected 2"),
+                (ball, [mass, *turns, "Spring stiffness=1, 0"],
+                 "has 2 numbers", "expected 3"),
+                (ball, [mass, "Free axes=x", "Spring stiffness=1, 1"],
+                 "Spring stiffness' is 1 for the axis y", "held there"),
+                (ball, [mass, "Spring yield force=1, 0"],
+                 "Spring yield force' is 1 for the axis x", "no spring can yield"),
+                (ball, [mass, "Spring stiffness=-1, 0"], "'Spring stiffness'",
+                 "-1")):
+            with self.subTest(entries):
+                self.refuse_set(shape + ["Obstacles/ball/" + e for e in entries],
+                                *words)
+        self.refuse_set(ball + ["Obstacles/ball/" + e for e in (
+            mass, "Maximum shear stress=10", "Slip to remould=1",
+            "Remoulded shear stress ratio=0.5")],
+            "the obstacle moves ('Obstacles/ball/Mass')")
+
     def test_trigger_of_a_body_without_strength(self):
         weaker = "Strength fraction=0.5"
         self.refuse_trigger([weaker], "/Materials/clay", "no strength",

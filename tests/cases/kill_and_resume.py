@@ -261,6 +261,35 @@ class SlideOverObstacles(KillAndResume):
                            "Stations/Lines=route: 20; 60"]
 
 
+class SlideMovesObstacle(KillAndResume):
+    """A pillar on springs that yield, in a bed across the cells, pushed and
+    turned by the slide."""
+
+    N_KILLS = 8
+    file = "landslide-inclined.prm"
+    settings = SETTINGS + ["Mesh tracking/Enabled=true",
+                           "Mesh tracking/Margin=6",
+                           "Mesh tracking/Interval=50",
+                           "Obstacles/Names=bed, pillar",
+                           "Obstacles/pillar/Shape=box",
+                           "Obstacles/pillar/Lower corner=49.5, -6",
+                           "Obstacles/pillar/Upper corner=52.5, -1",
+                           "Obstacles/pillar/Mass=5000",
+                           "Obstacles/pillar/Moment of inertia=2e4",
+                           "Obstacles/pillar/Free axes=x, y, rotation",
+                           "Obstacles/pillar/Force=0; -1e3*t",
+                           "Obstacles/pillar/Spring stiffness=1e5, 1e5, 1e6",
+                           "Obstacles/pillar/Spring damping=1e3, 1e3, 1e4",
+                           "Obstacles/pillar/Spring yield force=1e3, 0, 0"]
+
+    def make_reference(self):
+        super().make_reference()
+        lines = (self.folder / "reference" / "obstacles.csv").read_text().splitlines()
+        last = dict(zip(lines[0].split(","), map(float, lines[-1].split(","))))
+        self.assertGreater(last["pillar spring slip x [m]"], 1e-3)
+        self.assertGreater(abs(last["pillar rotation [rad]"]), 1e-4)
+
+
 class SlideOnSofteningSeabed(KillAndResume):
     """A seabed that softens by slip under a mesh that changes: places without a
     node keep their slip."""

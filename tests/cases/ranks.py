@@ -170,6 +170,26 @@ class Ranks(Runs):
         self.assert_same(self.run_on(2, settings, pipe, name="pipe-2"), alone)
         self.assert_same(self.forces("pipe-2"), self.forces("pipe-1"))
 
+    def test_obstacles_moved_by_forces(self):
+        """A light pipe that is dragged and turned through clay."""
+        pipe = "verification/pipe.prm"
+        settings = ["End time=0.8", "Obstacles/pipe/Velocity=",
+                    "Obstacles/pipe/Mass=80",
+                    "Obstacles/pipe/Moment of inertia=10",
+                    "Obstacles/pipe/Free axes=x, y, rotation",
+                    "Obstacles/pipe/Maximum shear stress=500",
+                    "Obstacles/pipe/Force=2e4*t; -5e3*t; 1e3*t",
+                    "Obstacles/pipe/Spring stiffness=1e3, 1e3, 100",
+                    "Obstacles/pipe/Spring yield force=5, 0, 0"] + BALANCE + TERSE
+        alone = self.run_on(1, settings, pipe, name="body-1")
+        forces = self.forces("body-1")
+        self.assertGreater(forces["pipe spring slip x [m]"][-1], 1e-3)
+        self.assertGreater(forces["pipe rotation [rad]"][-1], 1e-3)
+        for n_ranks in (2, 3):
+            name = f"body-{n_ranks}"
+            self.assert_same(self.run_on(n_ranks, settings, pipe, name=name), alone)
+            self.assert_same(self.forces(name), forces)
+
     def test_obstacles_in_three_dimensions(self):
         """A bed, and a boulder in it that the toe moves over."""
         slide = CASES / "landslide-inclined-3d.prm"

@@ -61,6 +61,17 @@ namespace talus
       covered_area_ = covered_area;
     }
 
+    /// Share of the maximum shear stress [-] that a rule beyond slip and
+    /// trigger leaves at an owned node of a face. Until set_share_left() all of it.
+    using ShareLeft =
+      std::function<double(unsigned int face, unsigned int node)>;
+
+    void
+    set_share_left(const ShareLeft &share_left)
+    {
+      share_left_ = share_left;
+    }
+
     /// Area of @p face in contact with soil at @p node, m^(dim-1).
     double
     contact_area(const NodalFields<dim> &nodes,
@@ -190,6 +201,7 @@ namespace talus
     CoveredArea            covered_area_ = [](unsigned int, unsigned int) {
       return std::numeric_limits<double>::max();
     };
+    ShareLeft                            share_left_;
     double                               area_in_contact_ = 0; ///< m^(dim-1)
     std::unique_ptr<ShearStressCap<dim>> cap_;                 ///< Pa
     std::vector<double>                  cap_of_node_; ///< Pa, if not constant

@@ -4,6 +4,7 @@
 
 #include <talus/boundaries/boundaries.h>
 #include <talus/boundaries/reaction.h>
+#include <talus/contact/body_coupling.h>
 #include <talus/contact/contact_nodes.h>
 #include <talus/contact/facet_constraints.h>
 #include <talus/contact/facet_impulses.h>
@@ -42,6 +43,7 @@ namespace talus
     open_accounts(Accounts<dim> &accounts) override
     {
       boundaries_.open_accounts(accounts);
+      bodies_.open_accounts(accounts);
     }
 
     /// Cut the cells by the obstacles: facets and nodes in contact. A facet
@@ -49,7 +51,8 @@ namespace talus
     void
     prepare(const Grid<dim> &grid) override;
 
-    /// Advance moving obstacles to the end of the time step.
+    /// Advance obstacles with a prescribed velocity to the end of the time
+    /// step.
     void
     begin_step(State<dim> &state) override;
 
@@ -58,7 +61,8 @@ namespace talus
     void
     correct_velocities(State<dim> &state) override;
 
-    /// Sum the reactions of the step over the ranks.
+    /// Sum the reactions of the step over the ranks, and move obstacles with a
+    /// mass to the end of the step.
     void
     record(State<dim> &state) override;
 
@@ -204,8 +208,9 @@ namespace talus
     double                     previous_time_step_ = 0; ///< s
 
     // Data of one step
-    ContactNodes<dim>          nodes_{facets_};
-    FacetConstraints<dim>      constraints_{obstacles_, facets_, nodes_, slip_};
+    ContactNodes<dim>     nodes_{facets_};
+    FacetConstraints<dim> constraints_{obstacles_, facets_, nodes_, slip_};
+    BodyCoupling<dim>     bodies_{obstacles_, facets_, constraints_, impulses_};
     std::vector<ImpulseInside> impulses_inside_;
   };
 } // namespace talus

@@ -6,6 +6,7 @@
 #include <talus/base/shear_stress_cap.h>
 #include <talus/base/state_list.h>
 #include <talus/boundaries/interface_friction.h>
+#include <talus/contact/rigid_body.h>
 #include <talus/geometry/shape.h>
 #include <talus/geometry/shape_parameters.h>
 
@@ -19,8 +20,9 @@ namespace talus
 {
   /// Rigid body that soil cannot enter: a seabed, a pipeline, a wall. The
   /// surface passes shear to the soil by Coulomb friction, limited by a maximum
-  /// shear stress. An obstacle may move as a whole, without rotation; all
-  /// functions except shape() refer to the current position.
+  /// shear stress. An obstacle may move as a whole: with a prescribed velocity,
+  /// without rotation, or with a mass, by the forces that act. All functions
+  /// except shape() refer to the current position.
   template <int dim>
   class Obstacle : public dealii::ParameterAcceptor
   {
@@ -64,7 +66,7 @@ namespace talus
     double
     signed_distance(const dealii::Point<dim> &x) const
     {
-      return shape_->signed_distance(x - displacement_);
+      return shape_->signed_distance(at_start(x));
     }
 
     /// Unit normal out of the obstacle at the place of the surface nearest to
@@ -72,21 +74,23 @@ namespace talus
     dealii::Tensor<1, dim>
     normal(const dealii::Point<dim> &x) const
     {
-      return shape_->normal(x - displacement_);
+      return rotated(shape_->normal(at_start(x)), angle_);
     }
 
     /// Return signed_distance(), m, and normal() at @p x.
     std::pair<double, dealii::Tensor<1, dim>>
     distance_and_normal(const dealii::Point<dim> &x) const
     {
-      return shape_->distance_and_normal(x - displacement_);
+      auto result   = shape_->distance_and_normal(at_start(x));
+      result.second = rotated(result.second, angle_);
+      return result;
     }
 
     /// Whether the surface may be nearer to @p x than @p radius, m.
     bool
     may_cut_ball(const dealii::Point<dim> &x, const double radius) const
     {
-      return shape_->may_cut_ball(x - displacement_, radius);
+      return shape_->may_cut_ball(at_start(x), radius);
     }
 
     Box<dim>
@@ -144,19 +148,45 @@ namespace talus
     bool
     moves() const
     {
-      return velocity_ != nullptr || prescribed_velocity_;
+      return velocity_ != nullptr || prescribed_velocity_ || body_.exists();
     }
 
-    /// Velocity at time @p t, s, in m/s; zero if the obstacle is at rest. If a
+    /// Motion by forces; RigidBody::exists() is false without a mass.
+    const RigidBody<dim> &
+    body() const
+    {
+      return body_;
+    }
+
+    RigidBody<dim> &
+    body()
+    {
+      return body_;
+    }
+
+    /// Velocity of the reference point at time @p t, s, in m/s; zero if the
+    /// obstacle is at rest. A body with a mass has one velocity per step. If a
     /// function prescribes the velocity: in the last step that has begun,
     /// whatever @p t is.
     dealii::Tensor<1, dim>
     velocity(double t) const;
 
-    /// Move the obstacle from time @p t, s, by a step @p dt, s, with the
-    /// velocity at the middle of the step.
+    /// Velocity of the place @p x of the obstacle at time @p t, s, in m/s.
+    dealii::Tensor<1, dim>
+    velocity_at(const dealii::Point<dim> &x, double t) const
+    {
+      return body_.exists() ? body_.velocity_at(x - reference_point())
+                            : velocity(t);
+    }
+
+    /// Move an obstacle with a prescribed velocity from time @p t, s, by a step
+    /// @p dt, s, with the velocity at the middle of the step.
     void
     advance(double t, double dt);
+
+    /// Move a body with a mass by a step @p dt, s, with its velocity.
+    void
+    advance_body(double dt);
 
     /// Displacement since the start of the run, m.
     const dealii::Tensor<1, dim> &
@@ -165,9 +195,21 @@ namespace talus
       return displacement_;
     }
 
-    /// Point about which moments are taken, m; moves with the obstacle.
+    /// Angle of rotation since the start of the run, rad, counterclockwise; 0
+    /// in 3-D.
+    double
+    angle() const
+    {
+      return angle_;
+    }
+
+    /// Point about which moments are taken, m; moves with the obstacle. Centre
+    /// of mass of a body with a mass.
     dealii::Point<dim>
-    reference_point() const;
+    reference_point() const
+    {
+      return reference_point_ + displacement_;
+    }
 
     void
     list_state(StateList &list);
@@ -178,6 +220,15 @@ namespace talus
     void
     check_motion() const;
 
+    /// Place of the obstacle at the start of the run which is now at @p x, m.
+    dealii::Point<dim>
+    at_start(const dealii::Point<dim> &x) const
+    {
+      if (angle_ == 0.)
+        return x - displacement_;
+      return reference_point_ + rotated(x - reference_point(), -angle_);
+    }
+
     std::string
     path(const std::string &entry) const
     {
@@ -187,6 +238,7 @@ namespace talus
     std::string          name_;
     ShapeParameters<dim> shape_parameters_;
     InterfaceFriction    friction_;
+    RigidBody<dim>       body_;
 
     // Parameters
     std::string maximum_shear_stress_text_ = "";
@@ -201,6 +253,7 @@ namespace talus
     dealii::Tensor<1, dim>           displacement_;
     VelocityOfTime                   prescribed_velocity_; ///< may be empty
     dealii::Tensor<1, dim>           velocity_of_step_;    ///< m/s, prescribed
+    double                           angle_ = 0;           ///< rad
   };
 } // namespace talus
 

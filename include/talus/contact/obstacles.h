@@ -53,6 +53,12 @@ namespace talus
       return *obstacles_[k];
     }
 
+    Obstacle<dim> &
+    operator[](const unsigned int k)
+    {
+      return *obstacles_[k];
+    }
+
     /// Shapes of all obstacles, at the start of the run.
     std::vector<const Shape<dim> *>
     shapes() const;
@@ -103,13 +109,26 @@ namespace talus
     bool
     move() const;
 
-    /// Advance moving obstacles from time @p t, s, by a step @p dt, s.
+    /// Numbers of the obstacles with a mass, which move by forces; known after
+    /// prepare().
+    const Numbers &
+    bodies() const
+    {
+      return bodies_;
+    }
+
+    /// Advance obstacles with a prescribed velocity from time @p t, s, by a
+    /// step @p dt, s.
     void
     advance(double t, double dt);
 
+    /// Advance the obstacles with a mass by a step @p dt, s.
+    void
+    advance_bodies(double dt);
+
     /// Index the obstacles at their present positions. Call after positions
-    /// were restored from a checkpoint; prepare() and advance() call locate()
-    /// themselves.
+    /// were restored from a checkpoint; prepare() and the functions that
+    /// advance call locate() themselves.
     void
     locate();
 
@@ -149,6 +168,7 @@ namespace talus
   private:
     std::vector<std::string>                    listed_names_;
     std::vector<std::unique_ptr<Obstacle<dim>>> obstacles_;
+    Numbers                                     bodies_;
     BoxIndex<dim>                               index_;
   };
 } // namespace talus

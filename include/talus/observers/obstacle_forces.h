@@ -9,8 +9,8 @@
 
 namespace talus
 {
-  /// obstacles.csv: force of the soil on each obstacle, and volume and depth of
-  /// soil below the surface. doc/output.md lists the columns.
+  /// obstacles.csv: force of the soil on each obstacle, its motion, and volume
+  /// and depth of soil below the surface. doc/output.md lists the columns.
   template <int dim>
   class ObstacleForces : public ReactionTable<dim>
   {
@@ -53,6 +53,8 @@ namespace talus
 
     std::vector<Penetration>
     penetrations(const State<dim> &state) const;
+    void
+    list_motion(unsigned int k, Quantities &row) const;
     void
     list_penetration(unsigned int       k,
                      const Penetration &own,

@@ -13,6 +13,7 @@
 #include <talus/problem/parameter_preview.h>
 #include <talus/problem/trigger.h>
 #include <talus/state/state.h>
+#include <talus/water/hydroplaning.h>
 #include <talus/water/water.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -181,6 +182,7 @@ namespace talus
     FacetContact<dim>     &contact; ///< contact with obstacles
     Damping<dim>          &damping;
     Water<dim>            &water;
+    Hydroplaning<dim>     &hydroplaning;
   };
 } // namespace talus
 

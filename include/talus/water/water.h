@@ -31,6 +31,13 @@ namespace talus
       return added_mass_ > 0 || skin_friction_ > 0 || pressure_drag_ > 0;
     }
 
+    /// Density of the water, kg/m^3.
+    double
+    density() const
+    {
+      return density_;
+    }
+
     /// Return the mass of water that moves with the soil divided by the mass of
     /// the soil [-], by body; empty if water has no effect.
     std::vector<double>
