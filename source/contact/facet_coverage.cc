@@ -187,7 +187,7 @@ namespace talus
         samples.places    = 1;
         samples.height[0] = facet.centroid[axis];
         for (unsigned int k = 0; k < dim - 1; ++k)
-          samples.column[k][0] = facet.centroid[across(axis, k)];
+          samples.column[k].fill(facet.centroid[across(axis, k)]);
       }
     samples.lowest = samples.highest =
       samples.height[__builtin_ctz(samples.places)];
@@ -243,6 +243,34 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Return whether a box reaches no column of the sample points of a facet.
+    /// The columns ascend along each axis.
+    /// @param x centre of the box, m
+    /// @param half half lengths of the box, m
+    /// @param beyond reach beyond the ends of the box, m
+    template <int dim, typename Samples>
+    bool
+    is_beside(const Samples        &samples,
+              const Point<dim>     &x,
+              const Tensor<1, dim> &half,
+              const double          beyond)
+    {
+      for (unsigned int k = 0; k < dim - 1; ++k)
+        {
+          const unsigned int d     = across(samples.axis, k);
+          const double       reach = half[d] + beyond;
+          if (samples.column[k].front() - x[d] > reach ||
+              x[d] - samples.column[k].back() > reach)
+            return true;
+        }
+      return false;
+    }
+  } // namespace
+
+
+
   /// Add the samples reached by boxes of the points in cell @p c, moved by
   /// @p shift, m. A box counts if the lower side is near the surface and the
   /// upper side above. A box reaches a quarter of a cell beyond its ends, from
@@ -279,7 +307,8 @@ namespace talus
           const double min_height = outwards * (x[axis] - nearest);
           const double max_height = outwards * (x[axis] - farthest);
           if (min_height - half[axis] >= largest_gap ||
-              max_height + half[axis] <= 0)
+              max_height + half[axis] <= 0 ||
+              is_beside(samples, x, half, 0.25 * h))
             continue;
           const Reached in_plan = reached_in_plan(samples, x, half, 0.25 * h);
           Mask          candidates = 0, at_surface = 0;

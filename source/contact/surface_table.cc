@@ -92,15 +92,17 @@ namespace talus
     std::array<std::array<double, 3>, dim> weights;
     for (unsigned int d = 0; d < dim; ++d)
       weights[d] = quadratics((x[d] - box_.lower[d]) / box_.length(d));
-    Record result{};
-    for (unsigned int i = 0; i < records_.size(); ++i)
-      {
-        double weight = weights[0][i % 3];
-        for (unsigned int d = 1; d < dim; ++d)
-          weight *= weights[d][i / power(3, d) % 3];
-        for (unsigned int k = 0; k < result.size(); ++k)
-          result[k] += weight * records_[i][k];
-      }
+    Record        result{};
+    const Record *record = records_.data();
+    for (unsigned int row = 0; row < power(3, dim - 1); ++row)
+      for (unsigned int i = 0; i < 3; ++i, ++record)
+        {
+          double weight = weights[0][i] * weights[1][row % 3];
+          if (dim == 3)
+            weight *= weights[dim - 1][row / 3];
+          for (unsigned int k = 0; k < result.size(); ++k)
+            result[k] += weight * (*record)[k];
+        }
     return result;
   }
 

@@ -112,12 +112,17 @@ namespace talus
   clip_simplex(const Simplex<dim>                &simplex,
                const std::array<double, dim + 1> &values)
   {
-    const SortedSimplex<dim> sorted(simplex, values);
-    ClippedSimplex<dim>      result;
-    if (sorted.n_inside == dim + 1)
+    ClippedSimplex<dim> result;
+    // Most simplices are not cut.
+    const auto n_inside =
+      std::count_if(values.begin(), values.end(), [](const double value) {
+        return value <= 0.;
+      });
+    if (n_inside == dim + 1)
       result.parts.push_back(simplex);
-    else if (sorted.n_inside > 0)
+    else if (n_inside > 0)
       {
+        const SortedSimplex<dim> sorted(simplex, values);
         clip(sorted, result);
         // The last corner is always outside.
         const Tensor<1, dim> outwards = sorted.corner[dim] - result.facet[0];

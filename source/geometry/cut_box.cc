@@ -5,6 +5,7 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <cmath>
+#include <numeric>
 
 namespace talus
 {
@@ -145,18 +146,19 @@ namespace talus
                   std::array<double, (1u << dim)> &integrals)
     {
       static const QGaussSimplex<dim> rule(dim == 2 ? 2 : 3);
-      const double                    size = volume(simplex);
-      double                          sum  = 0;
-      for (const double weight : rule.get_weights())
-        sum += weight;
+      static const double sum  = std::accumulate(rule.get_weights().begin(),
+                                                rule.get_weights().end(),
+                                                0.);
+      const double        size = volume(simplex);
       for (unsigned int q = 0; q < rule.size(); ++q)
         {
-          Point<dim> x = simplex[0];
+          const double weight = factor * size * rule.weight(q) / sum;
+          Point<dim>   x      = simplex[0];
           for (unsigned int d = 0; d < dim; ++d)
             x += rule.point(q)[d] * (simplex[d + 1] - simplex[0]);
           const auto N = shape_values_at(box, x);
           for (unsigned int v = 0; v < N.size(); ++v)
-            integrals[v] += factor * size * rule.weight(q) / sum * N[v];
+            integrals[v] += weight * N[v];
         }
     }
   } // namespace
