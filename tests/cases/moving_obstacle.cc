@@ -365,18 +365,18 @@ namespace moving_obstacle_test
   // prescribed velocity differs by a thousandth, too.
   TEST(DraggedPipe, MirroredDirection)
   {
-    const Overrides coarse = {"Grid/Cell size=0.25", "End time=1.5"};
+    const Overrides coarse = {"Grid/Cell size=0.25"};
     const auto      run    = [&](const std::string &direction) {
       return drag("mirrored", dragged(1, 12, displaced, direction) + coarse)
         .obstacles;
     };
-    const Table right = run("1"), left = run("-1");
-    const auto &a = right["pipe displacement x [m]"];
-    const auto &b = left["pipe displacement x [m]"];
-    ASSERT_EQ(a.size(), b.size());
-    EXPECT_GT(a.back(), 0.03);
-    for (std::size_t i = 0; i < a.size(); ++i)
-      EXPECT_NEAR(a[i], -b[i], 1e-3 * a.back());
+    const Table       right = run("1"), left = run("-1");
+    const std::string x     = "pipe displacement x [m]";
+    const auto       &times = left["time [s]"], &b = left[x];
+    const double      far = largest(b);
+    EXPECT_GT(far, 0.1);
+    for (std::size_t i = 0; i < b.size(); ++i)
+      EXPECT_NEAR(right.at(times[i], x), -b[i], 2e-3 * far);
   }
 
 
