@@ -142,8 +142,8 @@ namespace moving_obstacle_test
 
 
 
-  // The exact displacement begins with the velocity 0 at t = 0, which talus knows
-  // half a step earlier: the time step is short, so that this does not count.
+  // The exact displacement begins with the velocity 0 at t = 0, which talus
+  // knows half a step earlier: the time step is short, so that this does not count.
   TEST(BodyOnSprings, IsDamped)
   {
     constexpr double zeta = 0.1;
@@ -315,8 +315,8 @@ namespace moving_obstacle_test
 
 
 
-  // A body lighter than the soil at its facets: with the impulses of the previous
-  // step it would be thrown to and fro. A heavy body obeys its own inertia.
+  // A body lighter than the soil at its facets: with the impulses of the
+  // previous step it would be thrown to and fro. A heavy body obeys its own inertia.
   TEST(DraggedPipe, LightAndHeavy)
   {
     const Overrides coarse = {"Grid/Cell size=0.25"};
@@ -381,8 +381,8 @@ namespace moving_obstacle_test
 
 
 
-  // A disc that a moment turns in clay: a rough surface slips along the circle of
-  // radius R with the moment 2 pi R^2 s_u.
+  // A disc that a moment turns in clay: a rough surface slips along the circle
+  // of radius R with the moment 2 pi R^2 s_u.
   TEST(DraggedPipe, TurnsInClay)
   {
     const double  limit = 2 * M_PI * 0.25 * 500; // surface of 500 Pa
