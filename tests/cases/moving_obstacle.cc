@@ -143,7 +143,7 @@ namespace moving_obstacle_test
 
 
   // The exact displacement begins with the velocity 0 at t = 0, which talus
-  // knows half a step earlier: the time step is short, so that this does not count.
+  // knows half a step earlier: the time step is short.
   TEST(BodyOnSprings, IsDamped)
   {
     constexpr double zeta = 0.1;
@@ -316,7 +316,7 @@ namespace moving_obstacle_test
 
 
   // A body lighter than the soil at its facets: with the impulses of the
-  // previous step it would be thrown to and fro. A heavy body obeys its own inertia.
+  // previous step it would be thrown to and fro.
   TEST(DraggedPipe, LightAndHeavy)
   {
     const Overrides coarse = {"Grid/Cell size=0.25"};
