@@ -20,8 +20,8 @@ namespace talus
   /// soil at its facets (added mass). So each sweep computes the velocity of
   /// the body with which its momentum balances exactly the impulses that the
   /// sweep will give to the facets. The impulses are piecewise linear in the
-  /// velocity and never help the motion, so Newton's method finds the velocity in a few
-  /// iterations, with one sum over the ranks in each.
+  /// velocity and never help the motion, so Newton's method finds the velocity
+  /// in a few iterations, with one sum over the ranks in each.
   template <int dim>
   class BodyCoupling
   {
