@@ -361,8 +361,7 @@ namespace moving_obstacle_test
 
 
 
-  // Soil and facets are not mirrored bit by bit: the force on a pipe with a
-  // prescribed velocity differs by a thousandth, too.
+  // Soil and facets are not mirrored bit by bit, and the steps differ.
   TEST(DraggedPipe, MirroredDirection)
   {
     const Overrides coarse = {"Grid/Cell size=0.25"};
