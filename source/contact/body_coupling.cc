@@ -14,8 +14,8 @@ namespace talus
 
   namespace
   {
-    // Two or three iterations are the rule: the impulses are piecewise linear
-    // in the velocity, and few facets change sides in a step.
+    // The impulses are piecewise linear in the velocity, and few facets change
+    // sides in a step: the limit is not meant to be reached.
     constexpr unsigned int max_iterations = 40;
 
     // Imbalance of momentum, relative to the absolute terms.

@@ -96,7 +96,7 @@ namespace talus
     if (!force_text_.empty())
       force_ = std::make_unique<Expression<dim>>(path("Force"),
                                                  force_text_,
-                                                 n_components(),
+                                                 dim + rotates(),
                                                  constants);
     begin_step(0., 0.); // throws here rather than in the first step
   }
@@ -178,7 +178,7 @@ namespace talus
   {
     std::array<double, n_axes> result;
     result.fill(default_value);
-    const unsigned int n_expected = n_components();
+    const unsigned int n_expected = dim + rotates();
     AssertThrow(numbers.empty() || numbers.size() == n_expected,
                 ExcUser(text(path(entry),
                              " has ",
@@ -239,11 +239,12 @@ namespace talus
   void
   RigidBody<dim>::begin_step(const double t, const double dt)
   {
-    time_step_ = dt;
-    before_    = velocity_;
-    driven_    = Vector();
+    time_step_                      = dt;
+    before_                         = velocity_;
+    driven_                         = Vector();
+    const unsigned int n_components = dim + rotates();
     if (force_)
-      for (unsigned int axis = 0; axis < n_components(); ++axis)
+      for (unsigned int axis = 0; axis < n_components; ++axis)
         driven_[axis] = dt * force_->finite_value(reference_point_, t, axis);
   }
 

@@ -142,8 +142,8 @@ namespace moving_obstacle_test
 
 
 
-  // The exact displacement begins with the velocity 0 at t = 0, which talus knows
-  // half a step earlier: the time step is short, so that this does not count.
+  // The exact displacement begins with the velocity 0 at t = 0, which talus
+  // knows half a step earlier: the time step is short.
   TEST(BodyOnSprings, IsDamped)
   {
     constexpr double zeta = 0.1;
@@ -315,8 +315,8 @@ namespace moving_obstacle_test
 
 
 
-  // A body lighter than the soil at its facets: with the impulses of the previous
-  // step it would be thrown to and fro. A heavy body obeys its own inertia.
+  // A body lighter than the soil at its facets: with the impulses of the
+  // previous step it would be thrown to and fro.
   TEST(DraggedPipe, LightAndHeavy)
   {
     const Overrides coarse = {"Grid/Cell size=0.25"};
@@ -361,28 +361,27 @@ namespace moving_obstacle_test
 
 
 
-  // Soil and facets are not mirrored bit by bit: the force on a pipe with a
-  // prescribed velocity differs by a thousandth, too.
+  // Soil and facets are not mirrored bit by bit, and the steps differ.
   TEST(DraggedPipe, MirroredDirection)
   {
-    const Overrides coarse = {"Grid/Cell size=0.25", "End time=1.5"};
+    const Overrides coarse = {"Grid/Cell size=0.25"};
     const auto      run    = [&](const std::string &direction) {
       return drag("mirrored", dragged(1, 12, displaced, direction) + coarse)
         .obstacles;
     };
-    const Table right = run("1"), left = run("-1");
-    const auto &a = right["pipe displacement x [m]"];
-    const auto &b = left["pipe displacement x [m]"];
-    ASSERT_EQ(a.size(), b.size());
-    EXPECT_GT(a.back(), 0.03);
-    for (std::size_t i = 0; i < a.size(); ++i)
-      EXPECT_NEAR(a[i], -b[i], 1e-3 * a.back());
+    const Table       right = run("1"), left = run("-1");
+    const std::string x     = "pipe displacement x [m]";
+    const auto       &times = left["time [s]"], &b = left[x];
+    const double      far = largest(b);
+    EXPECT_GT(far, 0.1);
+    for (std::size_t i = 0; i < b.size(); ++i)
+      EXPECT_NEAR(right.at(times[i], x), -b[i], 2e-3 * far);
   }
 
 
 
-  // A disc that a moment turns in clay: a rough surface slips along the circle of
-  // radius R with the moment 2 pi R^2 s_u.
+  // A disc that a moment turns in clay: a rough surface slips along the circle
+  // of radius R with the moment 2 pi R^2 s_u.
   TEST(DraggedPipe, TurnsInClay)
   {
     const double  limit = 2 * M_PI * 0.25 * 500; // surface of 500 Pa

@@ -62,7 +62,7 @@ namespace talus
     }
 
     /// Share of the maximum shear stress [-] that a rule beyond slip and
-    /// trigger leaves at an owned node of a face. Until set_share_left() all of it.
+    /// trigger leaves at an owned node of a face. Until set_share_left(): 1.
     using ShareLeft =
       std::function<double(unsigned int face, unsigned int node)>;
 

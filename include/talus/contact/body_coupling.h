@@ -18,10 +18,10 @@ namespace talus
   /// A facet pushes soil and body apart by the same impulse. A body that moved
   /// by the impulses of the previous step would be unstable if lighter than the
   /// soil at its facets (added mass). So each sweep computes the velocity of
-  /// the body with which its momentum balances exactly the impulses that the sweep
-  /// will give to the facets. The impulses are piecewise linear in the velocity
-  /// and never help the motion, so Newton's method finds the velocity in a few
-  /// iterations, with one sum over the ranks in each.
+  /// the body with which its momentum balances exactly the impulses that the
+  /// sweep will give to the facets. The impulses are piecewise linear in the
+  /// velocity and never help the motion, so Newton's method finds the velocity
+  /// in a few iterations, with one sum over the ranks in each.
   template <int dim>
   class BodyCoupling
   {

@@ -186,13 +186,6 @@ namespace talus
       return "'Obstacles/" + name_ + "/" + entry + "'";
     }
 
-    /// Number of entries by axis in parameters.
-    unsigned int
-    n_components() const
-    {
-      return rotates() ? 3 : dim;
-    }
-
     void
     check_that_mass_is_given() const;
     void

@@ -80,7 +80,7 @@ namespace hydroplaning_test
 
 
 
-  // Nodes are 0.5 m apart: at 0 and 0.5 m from the nose the rule acts, at 1 not.
+  // Nodes are 0.5 m apart: at 0 and 0.5 m from the nose the rule acts.
   TEST(Hydroplaning, ReducesTheCapBelowTheNose)
   {
     MovingLayer layer;
