@@ -277,7 +277,7 @@ class SlideMovesObstacle(KillAndResume):
                            "Obstacles/pillar/Mass=5000",
                            "Obstacles/pillar/Moment of inertia=2e4",
                            "Obstacles/pillar/Free axes=x, y, rotation",
-                           "Obstacles/pillar/Force=0; -1e3*t",
+                           "Obstacles/pillar/Force=0; -1e3*t; 0",
                            "Obstacles/pillar/Spring stiffness=1e5, 1e5, 1e6",
                            "Obstacles/pillar/Spring damping=1e3, 1e3, 1e4",
                            "Obstacles/pillar/Spring yield force=1e3, 0, 0"]

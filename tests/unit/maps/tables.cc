@@ -117,7 +117,9 @@ TEST_F(MapTables, Stations)
   expect(row, "on impact pressure [Pa]", 0.5 * 2. * 2000. * 25. + 50000.);
   for (const auto &[heading, value] : row)
     if (heading.find("beside") == 0)
-      EXPECT_EQ(value, "0") << heading;
+      {
+        EXPECT_EQ(value, "0") << heading;
+      }
 }
 
 
