@@ -36,6 +36,7 @@ run landslide prm/landslide-quick.prm --set "Splitting/Directions=stretched" \
 run landslide-unsplit prm/landslide-quick.prm --set "Splitting/Enabled=false" \
     --set "Output/Field interval=5"
 run pipeline prm/pipeline.prm
+run pipe-on-springs prm/pipe-on-springs.prm
 for stress in 0 1e3; do
   run pipe-$stress prm/verification/pipe.prm --set "Grid/Cell size=0.0625" \
       --set "Obstacles/pipe/Maximum shear stress=$stress" \
@@ -69,6 +70,7 @@ draw bar $here/bar.png $scratch/bar $scratch/bar-unsplit
 draw landslide $scratch/landslide $here/landslide.png
 draw landslide $scratch/first-slope $here/first-slope.png
 draw pipeline $here/pipeline.png $scratch/pipeline
+draw moving_obstacles $here/moving-obstacles.png $scratch/pipe-on-springs
 draw slab_failure $here/slab-failure.png $scratch/slab-failure
 draw slope $here/slope.png $scratch/slope-3d $scratch/slope
 draw pipe_flow $here/pipe-flow.png \

@@ -23,7 +23,7 @@ def table(folder, file):
 
 
 name, folder = sys.argv[1:3]
-place = [float(v) for v in parameter(folder, "Centre").split(",")]
+place = [float(v) for v in parameter(folder, "Obstacles/pipe/Centre").split(",")]
 radius = 0.3  # of prm/pipe-on-springs.prm
 body = table(folder, "obstacles.csv")
 time = body["time [s]"]
@@ -33,8 +33,8 @@ hit = time[numpy.argmax(body["pipe contact area [m]"] > 0)]
 wanted = [nearest(times, hit + dt) for dt in (0, 1, 2, 4)]
 
 figure = plt.figure(figsize=(WIDTH, HEIGHT))
-window = (place[0] - 4.5, place[0] + 7.7, 0, 4)
-size = [1220, 400]
+window = (place[0] - 4.5, place[0] + 11.2, 0, 5.1)
+size = [1570, 510]
 angle = numpy.linspace(0, 2 * numpy.pi, 60)
 for i, now in enumerate(wanted):
     axes = figure.add_axes([0.07 + 0.46 * (i % 2), 0.80 - 0.205 * (i // 2),
@@ -71,5 +71,5 @@ axes.axhline(0, color="0.7", linewidth=0.5)
 axes.set_xlim(hit - 1, time[-1])
 axes.set_xlabel("time [s]")
 axes.set_ylabel("force [kN/m]")
-axes.legend(loc="upper right")
+axes.legend(loc="lower right")
 figure.savefig(name)

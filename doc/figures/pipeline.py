@@ -42,7 +42,7 @@ def velocity_at(folder, x):
 
 
 name, folder = sys.argv[1:3]
-place = [float(v) for v in parameter(folder, "Centre").split(",")]
+place = [float(v) for v in parameter(folder, "Obstacles/pipe/Centre").split(",")]
 radius = 0.3  # of prm/pipeline.prm
 forces = table(folder, "obstacles.csv")
 reader, times = open_points(folder)

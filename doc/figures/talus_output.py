@@ -7,7 +7,6 @@ Needs numpy and matplotlib. Whoever wants to look around takes ParaView.
 import base64
 import csv
 import os
-import re
 import xml.etree.ElementTree
 import zlib
 
@@ -44,14 +43,20 @@ def statistics(folder):
 
 
 def parameter(folder, name):
-    """Text of the first entry of this name in parameters.prm."""
+    """Text of the first entry in parameters.prm whose path ends with this name,
+    for instance Centre or Obstacles/pipe/Centre."""
+    sections = []
     with open(os.path.join(folder, "parameters.prm")) as stream:
-        found = re.search(r"^\s*set\s+%s\s*=\s*(.*?)\s*$" % re.escape(name),
-                          stream.read(), re.MULTILINE)
-    if not found:
-        raise SystemExit("%s/parameters.prm has no entry '%s'"
-                         % (folder, name))
-    return found.group(1)
+        for line in map(str.strip, stream):
+            if line.startswith("subsection "):
+                sections.append(line[len("subsection "):])
+            elif line == "end":
+                sections.pop()
+            elif line.startswith("set "):
+                entry, text = map(str.strip, line[4:].split("=", 1))
+                if ("/" + "/".join(sections + [entry])).endswith("/" + name):
+                    return text
+    raise SystemExit("%s/parameters.prm has no entry '%s'" % (folder, name))
 
 
 def decode(array):
