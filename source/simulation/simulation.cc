@@ -390,7 +390,10 @@ namespace talus
     const Stages &stages = static_stages_.stages();
     if (is_resumed && resumed_from_.head.end_time == 0 &&
         stages.contain(Stage::dynamics) && !stages.next_is_static())
-      static_stages_.continue_with_dynamics();
+      {
+        static_stages_.continue_with_dynamics();
+        output_.restart_energy_budget(state_);
+      }
     // The checkpoint of a finished run must not look finished now.
     if (is_resumed && resumed_from_.head.time >= resumed_from_.head.end_time)
       write_checkpoint();

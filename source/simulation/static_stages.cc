@@ -234,7 +234,10 @@ namespace talus
         equilibrium().measure() == StrainMeasure::large)
       return;
     const auto before = solver_.save();
-    if (solver_.find_with_weight(label(1.)))
+    // The last static stage, which is done if a resumed run adds the dynamics.
+    const unsigned int stage =
+      stages_.number() - (stages_.next_is_static() ? 0 : 1);
+    if (solver_.find_with_weight({stage, 1.}))
       log_.say(LogLevel::result,
                text("For the dynamics the weight acts without the correction "
                     "of the well-balanced load; balance was found in ",

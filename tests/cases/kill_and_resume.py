@@ -407,6 +407,22 @@ class StagesAndResume(KillAndResume):
         for file in expected:
             self.assertTrue(expected[file] == found[file], file)
 
+    def assert_as_undisturbed_after_the_start(self):
+        """Only at t = 0 the weight does not act without the correction of the
+        well-balanced load, if no dynamics was asked for."""
+        expected, found = self.content("reference"), self.content("run")
+        self.assertEqual(list(expected), list(found))
+        for name in ("grid-0000.vtu", "points-0000.vtu"):
+            self.assertNotEqual(expected.pop(name), found.pop(name))
+        first = []
+        for content in (expected, found):
+            rows = content["statistics.csv"].split(b"\n")
+            first.append(rows.pop(1))
+            content["statistics.csv"] = rows
+        self.assertNotEqual(*first)
+        for file in expected:
+            self.assertTrue(expected[file] == found[file], file)
+
     def test_dynamics_after_all(self):
         """A run that ended with its equilibrium goes on from there."""
         for first in ("equilibrium", "equilibrium, strength reduction"):
@@ -422,7 +438,7 @@ class StagesAndResume(KillAndResume):
             result = self.run_talus("run", [stages], ["--resume"])
             self.assert_ends(result)
             self.assertNotIn("nothing left to do", result.stdout)
-            self.assert_as_undisturbed("run")
+            self.assert_as_undisturbed_after_the_start()
 
     def test_newton_table_cut_or_missing(self):
         """Nothing is put into the gap, and other tables stay as they are."""

@@ -61,6 +61,14 @@ namespace talus
     void
     set_folder(const std::string &folder);
 
+    /// Begin the energy budget anew at @p state: a static stage has changed
+    /// the stress after start(). Collective.
+    void
+    restart_energy_budget(const State<dim> &state)
+    {
+      statistics_->start(state);
+    }
+
     /// Return the row that statistics.csv would have now. Collective; complete
     /// on the first rank.
     Quantities
