@@ -27,9 +27,9 @@ namespace talus::python
 
 
 
-  /// deal.II's class refuses to start if MPI has been initialized. What else the
-  /// class does, and talus needs, is then done here: one thread, and no output
-  /// of p4est.
+  /// deal.II's class refuses to start if MPI has been initialized. What else
+  /// the class does, and talus needs, is then done here: one thread, and no
+  /// output of p4est.
   void
   begin_mpi()
   {

@@ -394,8 +394,8 @@ namespace talus
 
 
 
-  /// An undeclared entry is an error here: most are misspelt. All parameters are
-  /// declared by add_parameter(), which fills the members while parsing:
+  /// An undeclared entry is an error here: most are misspelt. All parameters
+  /// are declared by add_parameter(), which fills the members while parsing:
   /// ParameterAcceptor::parse_all_parameters() would also enter the sections of
   /// other runs in the process.
   void

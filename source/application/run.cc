@@ -172,8 +172,8 @@ namespace talus
 
 
 
-    /// State of all obstacles. There are no reactions before the first step. The
-    /// last impulses may belong to the step before the present one, if a
+    /// State of all obstacles. There are no reactions before the first step.
+    /// The last impulses may belong to the step before the present one, if a
     /// function that prescribes a velocity asks.
     template <int dim>
     std::vector<ObstacleState>

@@ -361,10 +361,10 @@ namespace moving_obstacle_test
 
 
 
-  // Facets and points are swept in one order, so soil and its mirror image differ
-  // from the start: with a prescribed velocity by 0.1 % of the mean force. The
-  // dashpot carries a seventh of the force, and the velocity differs seven times
-  // as much.
+  // Facets and points are swept in one order, so soil and its mirror image
+  // differ from the start: with a prescribed velocity by 0.1 % of the mean
+  // force. The dashpot carries a seventh of the force, and the velocity differs
+  // seven times as much.
   TEST(DraggedPipe, MirroredDirection)
   {
     const Overrides coarse = {"Grid/Cell size=0.25"};

@@ -28,8 +28,8 @@ namespace talus
     double coefficient = 0; ///< Coulomb friction [-]
     double cap         = 0; ///< maximum shear stress times area, N
 
-    // A cap reduced by slip is min(ceiling, residual + excess e^(-rate s)) after
-    // a further slip s.
+    // A cap reduced by slip is min(ceiling, residual + excess e^(-rate s))
+    // after a further slip s.
     double residual = 0; ///< N
     double excess   = 0; ///< N
     double rate     = 0; ///< 1/m; 0: the cap is constant

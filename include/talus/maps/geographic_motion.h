@@ -11,9 +11,9 @@ namespace talus
   /// Return @p motion on a raster in longitude and latitude, degrees, WGS 84,
   /// that covers the raster of @p motion. A cell in the middle is as large as a
   /// cell of @p motion. Values are interpolated linearly between the centres of
-  /// cells, and zero outside, so the volume is that of @p motion up to the error
-  /// of interpolation. Longitudes continue beyond 180 degrees where the raster
-  /// lies on both sides.
+  /// cells, and zero outside, so the volume is that of @p motion up to the
+  /// error of interpolation. Longitudes continue beyond 180 degrees where the
+  /// raster lies on both sides.
   /// @param motion on a map in metres
   /// @param coordinate_system of the map, see Raster::coordinate_system. Throws
   ///   ExcUser if no transformation exists.
