@@ -86,7 +86,6 @@ if(talus_has_python)
     "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_minor})")
 endif()
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-h5py, python3-mpi4py")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
 "The Python module talus: runs that a program leads step by step, with points as
