@@ -412,8 +412,9 @@ class StagesAndResume(KillAndResume):
         well-balanced load, if no dynamics was asked for."""
         expected, found = self.content("reference"), self.content("run")
         self.assertEqual(list(expected), list(found))
-        for name in ("grid-0000.vtu", "points-0000.vtu"):
-            self.assertNotEqual(expected.pop(name), found.pop(name))
+        at_start = [f for f in expected if f.startswith(("grid-0000", "points-0000"))]
+        self.assertNotEqual([expected.pop(f) for f in at_start],
+                            [found.pop(f) for f in at_start])
         first = []
         for content in (expected, found):
             rows = content["statistics.csv"].split(b"\n")
