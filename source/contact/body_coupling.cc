@@ -148,9 +148,9 @@ namespace talus
 
 
 
-  /// One iteration of Newton's method for the momentum of @p body. A step that
-  /// does not reduce the imbalance is halved: facets may have begun or ceased
-  /// to act.
+  /// Improve the velocity of @p body by a step of Newton's method, so that the
+  /// momentum balances the impulses of the facets. A step that does not reduce
+  /// the imbalance is halved: facets may have begun or ceased to act.
   template <int dim>
   void
   BodyCoupling<dim>::improve(const Response &response,

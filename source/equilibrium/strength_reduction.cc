@@ -70,8 +70,8 @@ namespace talus
     constexpr double nearby = 1.25;
 
     // Facets of obstacles may give way by this share of the displacements of a
-    // trial. The limits of their forces hold anyway, and the factors of all
-    // cases of verification are those with 1e-5.
+    // trial. The limits of their forces hold anyway, and the factors of
+    // the cases in doc/performance.md are those with 1e-5.
     constexpr double trial_facet_tolerance = 1e-3;
   } // namespace
 
