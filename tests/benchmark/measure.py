@@ -132,6 +132,19 @@ class Bench:
         command = self.command(file, settings, output, build)
         if state:
             command.append("--resume")
+        stdout, elapsed = self.execute(command, ranks)
+        with open(os.path.join(output, "log.txt")) as file:
+            return Run(stdout, file.read(), elapsed)
+
+    def elapsed(self, file):
+        """Run a parameter file; return the seconds of the whole process."""
+        return self.execute(
+            self.command(file, [], os.path.join(self.folder, "run")), 1
+        )[1]
+
+    @staticmethod
+    def execute(command, ranks):
+        """Run a command on @p ranks; return what it prints, and the seconds."""
         environment = dict(os.environ)
         if ranks > 1:
             command = ["mpirun", "-np", str(ranks)] + command
@@ -145,8 +158,7 @@ class Bench:
         elapsed = time.monotonic() - begin
         if done.returncode != 0:
             sys.exit("This run failed: " + " ".join(command))
-        with open(os.path.join(output, "log.txt")) as file:
-            return Run(done.stdout, file.read(), elapsed)
+        return done.stdout, elapsed
 
     def command(self, file, settings, output, build=None):
         program = os.path.join(build, "talus") if build else self.talus_program

@@ -34,6 +34,30 @@ def machine(bench):
     )
 
 
+def at_most(bound):
+    return lambda value: value <= bound, f"<= {bound:g}"
+
+
+def at_least(bound):
+    return lambda value: value >= bound, f">= {bound:g}"
+
+
+def within(lower, upper):
+    return lambda value: lower <= value <= upper, f"{lower:g} ... {upper:g}"
+
+
+def row(what, value, text, goal=None):
+    """A line of the table; without a goal, it only tells."""
+    if goal is None:
+        return (what, text, "", "")
+    is_met, bound = goal
+    return (what, text, bound, "met" if is_met(value) else "**falls short**")
+
+
+def without_yardstick(what, goal):
+    return (what, "", goal[1], "no yardstick")
+
+
 def print_table(rows):
     for row in rows:
         print(" | ".join(str(cell) for cell in row), flush=True)

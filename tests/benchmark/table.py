@@ -7,7 +7,7 @@
 
 BUILD is the build folder of a Release build. Runs that are compared take turns,
 so that whatever disturbs the machine disturbs both; the median of the ratios is
-printed. Nothing else should run meanwhile. With all cases it takes some twenty
+printed. Nothing else should run meanwhile. With all cases it takes some forty
 minutes. --write puts the tables into doc/performance.md. --dist and --clang name a
 build for distribution and one by clang, to compare BUILD with.
 
@@ -25,35 +25,15 @@ import tempfile
 
 from counters import counter_table
 from measure import QUIET, ROOT, STATES, Bench, median_ratio
+from features import CASES as FEATURES
 from operations import Operations, phase_table
-from report import machine, print_table, write_tables
+from report import (
+    at_least, at_most, machine, print_table, row, within, without_yardstick,
+    write_tables,
+)
 
 # Wave speed of the elastic block and of the clay, m/s, and their CFL number.
 BLOCK_SPEED, CLAY_SPEED, CFL = 36.69, 84.44, 0.2
-
-
-def at_most(bound):
-    return lambda value: value <= bound, f"<= {bound:g}"
-
-
-def at_least(bound):
-    return lambda value: value >= bound, f">= {bound:g}"
-
-
-def row(what, value, text, goal=None):
-    """A line of the table; without a goal, it only tells."""
-    if goal is None:
-        return (what, text, "", "")
-    is_met, bound = goal
-    return (what, text, bound, "met" if is_met(value) else "**falls short**")
-
-
-def within(lower, upper):
-    return lambda value: lower <= value <= upper, f"{lower:g} ... {upper:g}"
-
-
-def without_yardstick(what, goal):
-    return (what, "", goal[1], "no yardstick")
 
 
 def block(bench, file, n_cells, steps, dim=2, more=(), upper=None, build=None):
@@ -409,6 +389,7 @@ CASES = {
     "ranks": ranks_and_domain,
     "start": start_up,
     "output": output,
+    **FEATURES,
 }
 
 
