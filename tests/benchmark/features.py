@@ -31,13 +31,11 @@ def ratio_of_times(what, runs, others, goal):
 def features_of_slide(bench):
     """The quick landslide to 8 s with one more feature at a time."""
     common = QUIET + ["End time=8", "Splitting/Directions=stretched"]
-    # The bed of facets crosses the cells: points are clipped there, too.
-    clipped = [*common, "Bodies/slide/Filling=clipped"]
     plain, maps, water, bed = bench.in_turn(
         lambda: bench.talus("landslide-quick.prm", common),
         lambda: bench.talus("landslide-quick.prm", [*common, "Maps/Write=true"]),
         lambda: bench.talus("landslide-quick.prm", [*common, *WATER]),
-        lambda: bench.talus("landslide-inclined.prm", clipped),
+        lambda: bench.talus("landslide-inclined.prm", common),
     )
     for what, runs, goal in (
         ("with maps", maps, at_most(1.08)),
