@@ -318,9 +318,10 @@ def count_case(program, name):
     case = CASES[name]
     steps, result = run_under_valgrind(program, case)
     count = total(result, case)
-    each = f", {count / steps:.1f} in each of {steps:.5g} point-steps"
-    print(f"{name}: {count} instructions{each if steps > 0 else ''}.",
-          flush=True)
+    # A factor of safety takes no steps.
+    each = (f", {count / steps:.1f} in each of {steps:.5g} point-steps"
+            if steps > 0 else "")
+    print(f"{name}: {count} instructions{each}.", flush=True)
     status = 0
     if case.has_kernels:
         for error in list(judge_kernels(program, result, steps)):
