@@ -7,8 +7,8 @@
 
 BUILD is the build folder of a Release build. Runs that are compared take turns,
 so that whatever disturbs the machine disturbs both; the median of the ratios is
-printed. Nothing else should run meanwhile. With all cases it takes some forty
-minutes. --write puts the tables into doc/performance.md. --dist and --clang name a
+printed. Nothing else should run meanwhile. With all cases it takes half an
+hour or more. --write puts the tables into doc/performance.md. --dist and --clang name a
 build for distribution and one by clang, to compare BUILD with.
 
 The environment variable TALUS_YARDSTICK may name the source of the yardstick, a
@@ -24,8 +24,8 @@ import sys
 import tempfile
 
 from counters import counter_table
-from measure import QUIET, ROOT, STATES, Bench, median_ratio
 from features import CASES as FEATURES
+from measure import QUIET, ROOT, STATES, Bench, median_ratio
 from operations import Operations, phase_table
 from report import (
     at_least, at_most, machine, print_table, row, within, without_yardstick,
