@@ -72,9 +72,8 @@ namespace talus
     for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
       for (unsigned int face = 0; face < 2 * dim; ++face)
         if (boundaries_.is_seabed(face) && !hangs[node] &&
-            (grid.faces_of_node(node) & (1u << face)) &&
-            (nodes_.empty() || nodes_.back() != node))
-          nodes_.push_back(node);
+            (grid.faces_of_node(node) & (1u << face)))
+          nodes_.push_back({node, face, grid.face_share(face, node).volume});
     is_full_.assign(grid.n_nodes(), 0);
     areas_.assign(std::size_t(n_faces_) * grid.n_nodes(), 0.);
     exchange_.prepare(grid, n_faces_);
@@ -88,23 +87,14 @@ namespace talus
   {
     if (n_faces_ == 0)
       return;
-    // Names of faces are compared here, not at each node.
-    unsigned int seabeds = 0;
-    for (unsigned int face = 0; face < 2 * dim; ++face)
-      if (boundaries_.is_seabed(face))
-        seabeds |= 1u << face;
-    for (const unsigned int node : nodes_)
+    for (const auto &[node, face, volume_of_cells] : nodes_)
       {
-        std::fill_n(areas_.begin() + std::size_t(n_faces_) * node,
-                    n_faces_,
-                    0.);
-        is_full_[node]           = 0;
-        const unsigned int faces = seabeds & state.grid.faces_of_node(node);
-        for (unsigned int face = 0; face < 2 * dim; ++face)
-          if ((faces & (1u << face)) &&
-              volume_fraction_at_face(state.nodes, state.grid, face, node) >=
-                volume_fraction_of_full_cells)
-            is_full_[node] |= 1u << face;
+        area(face, node) = 0.;
+        if (state.nodes.volume(node) / volume_of_cells >=
+            volume_fraction_of_full_cells)
+          is_full_[node] |= 1u << face;
+        else
+          is_full_[node] &= ~(1u << face);
       }
     // cells_ and segments are both sorted by cell.
     auto at = cells_.begin();
@@ -140,6 +130,28 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Number of nodes in a row of a patch of 4^dim nodes.
+    template <int dim>
+    constexpr unsigned int nodes_per_row = 1u << (2 * (dim - 1));
+
+
+
+    /// Index in the patch of node @p i of the row with index @p row along @p
+    /// axis. Two bits of an index count the nodes along each axis.
+    unsigned int
+    index_in_patch(const unsigned int axis,
+                   const unsigned int row,
+                   const unsigned int i)
+    {
+      const unsigned int bits = 2 * axis;
+      return (i >> bits << (bits + 2)) | row << bits | (i & ((1u << bits) - 1));
+    }
+  } // namespace
+
+
+
   /// Whether all nodes in reach of the points of a cell are at full cells,
   /// where the covered area is not needed. Ghost nodes count as not full.
   template <int dim>
@@ -150,11 +162,12 @@ namespace talus
     const Cell<dim> &cell = grid.cells()[at.cell];
     if (!cell.uniform)
       return false;
-    const unsigned int stride = power(4, at.face / 2);
-    for (unsigned int k = 0; k < cell.patch.size(); ++k)
-      if (k / stride % 4 == at.row &&
-          !(is_full_[cell.patch[k]] & (1u << at.face)))
-        return false;
+    for (unsigned int i = 0; i < nodes_per_row<dim>; ++i)
+      {
+        const unsigned int k = index_in_patch(at.face / 2, at.row, i);
+        if (!(is_full_[cell.patch[k]] & (1u << at.face)))
+          return false;
+      }
     return true;
   }
 
@@ -248,16 +261,16 @@ namespace talus
             half_length_in_cells<dim>(
               state.points, state.constants.box_shape, d, p, 1. / cell.size))
             .value;
-    for (unsigned int k = 0; k < cell.patch.size(); ++k)
-      if (k / power(4, axis) % 4 == at.row)
-        {
-          double value = area_of_box;
-          for (unsigned int d = 0; d < dim; ++d)
-            if (d != axis)
-              value *= share[d][k / power(4, d) % 4];
-          if (value != 0)
-            area(at.face, cell.patch[k]) += value;
-        }
+    for (unsigned int i = 0; i < nodes_per_row<dim>; ++i)
+      {
+        const unsigned int k     = index_in_patch(axis, at.row, i);
+        double             value = area_of_box;
+        for (unsigned int d = 0; d < dim; ++d)
+          if (d != axis)
+            value *= share[d][(k >> (2 * d)) % 4];
+        if (value != 0)
+          area(at.face, cell.patch[k]) += value;
+      }
   }
 
 

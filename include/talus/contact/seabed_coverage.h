@@ -46,6 +46,13 @@ namespace talus
       unsigned int row; ///< row of the patch on the face
     };
 
+    struct NodeAtFace
+    {
+      unsigned int node;
+      unsigned int face;
+      double       volume_of_cells; ///< integral of the shape function, m^dim
+    };
+
     bool
     is_covered_anyway(const Grid<dim> &grid, const CellAtFace &at) const;
     void
@@ -75,7 +82,7 @@ namespace talus
     unsigned int                      n_faces_ = 0; ///< number of seabeds
     std::array<unsigned int, 2 * dim> slot_{};      ///< index of a seabed
     std::vector<CellAtFace>           cells_;       ///< sorted by cell
-    std::vector<unsigned int>         nodes_;       ///< at seabeds, owned
+    std::vector<NodeAtFace>           nodes_;       ///< owned
     std::vector<unsigned char>        is_full_; ///< bit f for face f, by node
     std::vector<double>               areas_;   ///< by node and slot
     NodalExchange<dim>                exchange_;
