@@ -82,7 +82,7 @@ namespace talus
     unsigned int                      n_faces_ = 0; ///< number of seabeds
     std::array<unsigned int, 2 * dim> slot_{};      ///< index of a seabed
     std::vector<CellAtFace>           cells_;       ///< sorted by cell
-    std::vector<NodeAtFace>           nodes_;       ///< owned
+    std::vector<NodeAtFace>           nodes_;       ///< at seabeds, owned
     std::vector<unsigned char>        is_full_; ///< bit f for face f, by node
     std::vector<double>               areas_;   ///< by node and slot
     NodalExchange<dim>                exchange_;
