@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/adaptivity/joint_deformation.h>
 #include <talus/adaptivity/merger.h>
+#include <talus/base/assertion.h>
 #include <talus/base/errors.h>
 #include <talus/points/points_kernel.h>
 #include <talus/transfer/box_rule.h>
@@ -188,7 +189,7 @@ namespace talus
         reordering_.merge(points.segments(), none, removed_);
         reordering_.apply(points);
       }
-    Assert(conservation_error() <= 1e-12, ExcInternalError());
+    TalusAssert(conservation_error() <= 1e-12, ExcInternalError());
     return loss;
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/adaptivity/splitter.h>
+#include <talus/base/assertion.h>
 #include <talus/base/errors.h>
 #include <talus/points/points_kernel.h>
 #include <talus/transfer/box_rule.h>
@@ -424,7 +425,7 @@ namespace talus
     statistics_.n_splits += marked_.size();
     statistics_.conservation_error = conservation_.relative_error();
     // The round-off of several thousand splits stays below 1e-12.
-    Assert(statistics_.conservation_error <= 1e-12, ExcInternalError());
+    TalusAssert(statistics_.conservation_error <= 1e-12, ExcInternalError());
     marked_.clear();
     return true;
   }

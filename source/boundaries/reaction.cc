@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/boundaries/reaction.h>
 
+#include <talus/base/assertion.h>
+
 #include <deal.II/base/mpi.h>
 
 namespace talus
@@ -56,7 +58,8 @@ namespace talus
                    const MPI_Comm                  communicator,
                    std::vector<Reaction<dim>>     &reactions)
   {
-    AssertDimension(steps.size(), reactions.size());
+    TalusAssert(steps.size() == reactions.size(),
+                dealii::ExcDimensionMismatch(steps.size(), reactions.size()));
     std::vector<double> sums;
     for (const StepReaction<dim> &step : steps)
       {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/assertion.h>
 #include <talus/base/key_halves.h>
 #include <talus/contact/facet_impulses.h>
 
@@ -23,7 +24,9 @@ namespace talus
   void
   FacetImpulses<dim>::set(const std::vector<FacetImpulse<dim>> &impulses)
   {
-    AssertDimension(impulses.size(), facets_.owned().size());
+    TalusAssert(impulses.size() == facets_.owned().size(),
+                dealii::ExcDimensionMismatch(impulses.size(),
+                                             facets_.owned().size()));
     impulses_ = impulses;
   }
 

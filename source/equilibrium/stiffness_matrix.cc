@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/equilibrium/stiffness_matrix.h>
 
+#include <talus/base/assertion.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -110,7 +112,7 @@ namespace talus
     const auto advance_to = [&](const int column) {
       for (int n = 0; n < n_entries && entries[place] != column; ++n)
         place = (place + 1 < n_entries ? place + 1 : 0);
-      Assert(entries[place] == column, ExcInternalError());
+      TalusAssert(entries[place] == column, ExcInternalError());
     };
     for (const auto &[column, j] : columns_)
       {

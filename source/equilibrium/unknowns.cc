@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/equilibrium/unknowns.h>
 
+#include <talus/base/assertion.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
@@ -75,7 +77,9 @@ namespace talus
   void
   Unknowns<dim>::constrain(const std::vector<unsigned char> &held)
   {
-    AssertDimension(held.size(), active_nodes_.size());
+    TalusAssert(held.size() == active_nodes_.size(),
+                dealii::ExcDimensionMismatch(held.size(),
+                                             active_nodes_.size()));
     for (unsigned int k = 0; k < active_nodes_.size(); ++k)
       records_[width * std::size_t(active_nodes_[k]) + 1] = held[k];
     exchange_of_records_.copy_to_ghosts(records_.data());

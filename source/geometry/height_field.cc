@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/geometry/height_field.h>
 
+#include <talus/base/assertion.h>
+
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
@@ -59,8 +61,8 @@ namespace talus
               -std::numeric_limits<double>::infinity(),
               0.}
   {
-    Assert(raster_.n_columns >= 2 && raster_.n_rows >= 2,
-           ExcMessage("A surface needs two rows and columns."));
+    TalusAssert(raster_.n_columns >= 2 && raster_.n_rows >= 2,
+                ExcMessage("A surface needs two rows and columns."));
     for (unsigned int r = 0; r + 1 < raster_.n_rows; ++r)
       for (unsigned int c = 0; c + 1 < raster_.n_columns; ++c)
         extend_bounds(c, r);

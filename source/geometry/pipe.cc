@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/geometry/pipe.h>
 
+#include <talus/base/assertion.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -51,7 +53,7 @@ namespace talus
     : axis_(std::move(axis))
     , radius_(radius)
   {
-    Assert(axis_.size() >= 2, ExcMessage("A pipe needs two corners."));
+    TalusAssert(axis_.size() >= 2, ExcMessage("A pipe needs two corners."));
     std::vector<std::pair<BoundingBox<3>, unsigned int>> boxes;
     for (unsigned int i = 0; i + 1 < axis_.size(); ++i)
       {

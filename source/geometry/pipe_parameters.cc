@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/assertion.h>
 #include <talus/base/errors.h>
 #include <talus/geometry/analytic_shapes.h>
 #include <talus/geometry/corner_list.h>
@@ -98,7 +99,8 @@ namespace talus
   double
   PipeParameters<dim>::height(const Setting &setting, const Point<dim> &x) const
   {
-    Assert(setting.surfaces != nullptr, ExcMessage("There are no surfaces."));
+    TalusAssert(setting.surfaces != nullptr,
+                ExcMessage("There are no surfaces."));
     AssertThrow(!height_of_axis_.empty(),
                 ExcUser(
                   path("Height of axis") +

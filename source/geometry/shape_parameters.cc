@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/assertion.h>
 #include <talus/base/errors.h>
 #include <talus/geometry/analytic_shapes.h>
 #include <talus/geometry/corner_list.h>
@@ -339,7 +340,8 @@ namespace talus
     const std::string                      &expression,
     const typename SideOfSurface<dim>::Side side) const
   {
-    Assert(surfaces_ != nullptr, ExcMessage("use_surfaces() was not called."));
+    TalusAssert(surfaces_ != nullptr,
+                ExcMessage("use_surfaces() was not called."));
     AssertThrow(!expression.empty(),
                 ExcUser(text(path(entry),
                              " is empty, but a ",

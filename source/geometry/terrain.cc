@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/assertion.h>
 #include <talus/base/errors.h>
 #include <talus/geometry/terrain.h>
 
@@ -34,8 +35,8 @@ namespace talus
     , section_(section)
     , lengths_(1, 0.)
   {
-    Assert(dim == 3 || section.size() >= 2,
-           ExcMessage("A section needs two corners."));
+    TalusAssert(dim == 3 || section.size() >= 2,
+                ExcMessage("A section needs two corners."));
     for (std::size_t i = 1; i < section_.size(); ++i)
       lengths_.push_back(lengths_.back() +
                          section_[i].distance(section_[i - 1]));

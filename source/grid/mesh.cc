@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/grid/mesh.h>
 
+#include <talus/base/assertion.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/grid/grid_generator.h>
@@ -198,7 +200,9 @@ namespace talus
   void
   Mesh<dim>::repartition(const std::vector<double> &weights)
   {
-    AssertDimension(weights.size(), n_locally_owned_cells());
+    TalusAssert(weights.size() == n_locally_owned_cells(),
+                dealii::ExcDimensionMismatch(weights.size(),
+                                             n_locally_owned_cells()));
     std::vector<unsigned int> weight_of_active_cell(
       triangulation_.n_active_cells(), 0);
     auto weight = weights.begin();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/grid/neighbor_exchange.h>
 
+#include <talus/base/assertion.h>
+
 namespace talus
 {
   using namespace dealii;
@@ -22,7 +24,8 @@ namespace talus
     const std::vector<Message>                 &outgoing,
     const std::function<void(const Message &)> &receive)
   {
-    AssertDimension(ranks.size(), outgoing.size());
+    TalusAssert(ranks.size() == outgoing.size(),
+                dealii::ExcDimensionMismatch(ranks.size(), outgoing.size()));
     requests_.resize(ranks.size());
     for (unsigned int i = 0; i < ranks.size(); ++i)
       {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/grid/node_numbering.h>
 
+#include <talus/base/assertion.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/mpi.templates.h>
 
@@ -256,7 +258,7 @@ namespace talus
             {
               // Masters do not hang: one pass in any order distributes the
               // sums.
-              Assert(hanging.count(master) == 0, ExcInternalError());
+              TalusAssert(hanging.count(master) == 0, ExcInternalError());
               entry.masters.emplace_back(local_node(master), weight);
             }
           hanging_nodes_.push_back(entry);

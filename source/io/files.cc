@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/assertion.h>
 #include <talus/base/errors.h>
 #include <talus/io/files.h>
 
@@ -288,8 +289,8 @@ namespace talus
   void
   CsvFile::add_row(const std::vector<double> &values)
   {
-    Assert(values.size() == n_columns_,
-           ExcDimensionMismatch(values.size(), n_columns_));
+    TalusAssert(values.size() == n_columns_,
+                ExcDimensionMismatch(values.size(), n_columns_));
     std::string row;
     for (unsigned int i = 0; i < values.size(); ++i)
       row += (i == 0 ? "" : ",") + csv_field(values[i]);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/agreement.h>
+#include <talus/base/assertion.h>
 #include <talus/io/checksum.h>
 #include <talus/io/disk_space.h>
 #include <talus/io/files.h>
@@ -131,8 +132,8 @@ namespace talus
       return;
     if (is_first_rank_)
       {
-        Assert(std::filesystem::file_size(part_) <= n_bytes_,
-               ExcMessage("More was written than reserved."));
+        TalusAssert(std::filesystem::file_size(part_) <= n_bytes_,
+                    ExcMessage("More was written than reserved."));
         std::string failure = release_disk_space(part_);
         if (failure.empty() && part_ != path())
           failure = sync_to_disk(part_);

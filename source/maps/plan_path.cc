@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/maps/plan_path.h>
 
+#include <talus/base/assertion.h>
+
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
@@ -16,14 +18,14 @@ namespace talus
     for (unsigned int i = 0; i + 1 < corners.size(); ++i)
       {
         const double length = corners[i].distance(corners[i + 1]);
-        Assert(length > 0., ExcMessage("Two corners of a path coincide."));
+        TalusAssert(length > 0., ExcMessage("Two corners of a path coincide."));
         segments_.push_back({corners[i],
                              (corners[i + 1] - corners[i]) / length,
                              length,
                              chainage});
         chainage += length;
       }
-    Assert(!segments_.empty(), ExcMessage("A path needs two corners."));
+    TalusAssert(!segments_.empty(), ExcMessage("A path needs two corners."));
   }
 
 

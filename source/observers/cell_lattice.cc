@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/observers/cell_lattice.h>
 
+#include <talus/base/assertion.h>
+
 #include <cmath>
 
 namespace talus
@@ -17,7 +19,7 @@ namespace talus
       {
         extent_[d] =
           static_cast<int>(std::lround(grid.domain().length(d) / size_));
-        Assert(extent_[d] < int(mask), dealii::ExcInternalError());
+        TalusAssert(extent_[d] < int(mask), dealii::ExcInternalError());
       }
   }
 

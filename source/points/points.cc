@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/assertion.h>
 #include <talus/base/errors.h>
 #include <talus/points/points.h>
 
@@ -20,7 +21,8 @@ namespace talus
                             const ColumnKind   kind,
                             const Inheritance  inheritance) {
       const unsigned int first = add_column(name, unit, kind, inheritance);
-      AssertDimension(first, expected);
+      TalusAssert(first == expected,
+                  dealii::ExcDimensionMismatch(first, expected));
       (void)first;
       (void)expected;
     };
@@ -177,7 +179,7 @@ namespace talus
   {
     arrays_.move(block_moves, element_moves);
     segments_.swap(segments);
-    Assert(n_sorted() <= size_, ExcInternalError());
+    TalusAssert(n_sorted() <= size_, ExcInternalError());
     size_ = n_sorted();
   }
 

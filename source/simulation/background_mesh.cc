@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/assertion.h>
 #include <talus/base/errors.h>
 #include <talus/problem/filling.h>
 #include <talus/simulation/background_mesh.h>
@@ -260,9 +261,9 @@ namespace talus
   BackgroundMesh<dim>::activate_nodes()
   {
     state_.nodes.activate(state_.grid, relocation_.occupied_cells());
-    Assert(points_are_covered(state_),
-           ExcMessage(
-             "After a change of the mesh a point is not in its cell."));
+    TalusAssert(points_are_covered(state_),
+                ExcMessage(
+                  "After a change of the mesh a point is not in its cell."));
   }
 
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/assertion.h>
 #include <talus/base/errors.h>
 #include <talus/observers/footprint.h>
 #include <talus/simulation/contact_area_remark.h>
@@ -25,7 +26,7 @@ namespace talus
   std::string
   ContactAreaRemark<dim>::remark(const State<dim> &state) const
   {
-    Assert(areas_.size() == 2, ExcInternalError());
+    TalusAssert(areas_.size() == 2, ExcInternalError());
     const Quantity &area = areas_[0], &footprint = areas_[1];
     const double    ratio = area.value / footprint.value;
     if (area.value == 0 || footprint.value == 0 ||

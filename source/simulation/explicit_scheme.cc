@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/assertion.h>
 #include <talus/base/errors.h>
 #include <talus/simulation/explicit_scheme.h>
 #include <talus/simulation/null_space_filter.h>
@@ -179,9 +180,10 @@ namespace talus
     };
     NodalInteractions<dim> &interactions = problem_.interactions;
     in_phase("messages", [&]() { state_.nodes.sum_over_ranks(state_.grid); });
-    Assert(nodes_carry_all_mass(state_),
-           ExcMessage("The nodes do not carry all mass of the points: a box "
-                      "reaches beyond the cells around its own."));
+    TalusAssert(nodes_carry_all_mass(state_),
+                ExcMessage(
+                  "The nodes do not carry all mass of the points: a box "
+                  "reaches beyond the cells around its own."));
     in_phase("nodal update", [&]() {
       interactions.begin_step(state_);
       interactions.add_forces(state_);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/state/accounts.h>
 
+#include <talus/base/assertion.h>
+
 #include <algorithm>
 
 namespace talus
@@ -41,8 +43,9 @@ namespace talus
     if (found == energies_.end())
       energies_.push_back({name, kind, 0., {}});
     else
-      Assert(found->kind == kind,
-             ExcMessage("The account '" + name + "' is open as another kind."));
+      TalusAssert(found->kind == kind,
+                  ExcMessage("The account '" + name +
+                             "' is open as another kind."));
   }
 
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/transfer/point_exchange.h>
 
+#include <talus/base/assertion.h>
+
 #include <algorithm>
 #include <cstring>
 
@@ -65,8 +67,8 @@ namespace talus
         unsigned long key;
         std::memcpy(&key, value++, sizeof(key));
         arrivals_.push_back({p, grid.cell_of_key(key)});
-        Assert(arrivals_.back().cell < grid.n_owned_cells(),
-               ExcInternalError());
+        TalusAssert(arrivals_.back().cell < grid.n_owned_cells(),
+                    ExcInternalError());
         for (unsigned int array = 0; array < n; ++array)
           points.data(array)[p] = *value++;
       }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/assertion.h>
 #include <talus/base/errors.h>
 #include <talus/transfer/relocation.h>
 
@@ -437,7 +438,8 @@ namespace talus
   Relocation<dim>::rebuild(Points<dim>                     &points,
                            const std::vector<unsigned int> &cells)
   {
-    AssertDimension(cells.size(), points.size());
+    TalusAssert(cells.size() == points.size(),
+                dealii::ExcDimensionMismatch(cells.size(), points.size()));
     points.forget_order();
     changes_.clear();
     leaving_.clear();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/assertion.h>
 #include <talus/base/errors.h>
 #include <talus/transfer/send_to_owners.h>
 
@@ -44,7 +45,7 @@ namespace talus
   send_points_to_owners(Points<dim> &points, const Grid<dim> &grid)
   {
     const MPI_Comm communicator = grid.communicator();
-    Assert(points.n_sorted() == 0, ExcInternalError());
+    TalusAssert(points.n_sorted() == 0, ExcInternalError());
     if (Utilities::MPI::n_mpi_processes(communicator) == 1)
       return;
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/assertion.h>
 #include <talus/transfer/convected_domain.h>
 #include <talus/transfer/weights.h>
 #include <talus/transfer/weights_kernel.h>
@@ -276,14 +277,14 @@ namespace talus
                         weights);
     else
       weights_of_box(points, grid, shape, c, p, weights);
-    Assert(std::abs(std::accumulate(weights.begin(),
-                                    weights.end(),
-                                    -1.,
-                                    [](const double           sum,
-                                       const NodeWeight<dim> &weight) {
-                                      return sum + weight.value;
-                                    })) < 1e-12,
-           ExcMessage("The weights of a point do not sum to one."));
+    TalusAssert(std::abs(std::accumulate(weights.begin(),
+                                         weights.end(),
+                                         -1.,
+                                         [](const double           sum,
+                                            const NodeWeight<dim> &weight) {
+                                           return sum + weight.value;
+                                         })) < 1e-12,
+                ExcMessage("The weights of a point do not sum to one."));
   }
 
 

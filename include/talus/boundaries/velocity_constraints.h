@@ -2,6 +2,7 @@
 #ifndef talus_boundaries_velocity_constraints_h
 #define talus_boundaries_velocity_constraints_h
 
+#include <talus/base/assertion.h>
 #include <talus/grid/nodal_fields.h>
 
 #include <array>
@@ -41,7 +42,7 @@ namespace talus
       unsigned int k = 0;
       while (k < size_ && list_[k].normal != constraint.normal)
         ++k;
-      AssertIndexRange(k, dim);
+      TalusAssert(k < dim, dealii::ExcIndexRange(k, 0, dim));
       list_[k] = constraint;
       size_    = std::max(size_, k + 1);
     }

@@ -2,6 +2,7 @@
 #ifndef talus_materials_hyperelastic_law_templates_h
 #define talus_materials_hyperelastic_law_templates_h
 
+#include <talus/base/assertion.h>
 #include <talus/materials/hyperelastic_kernel.h>
 #include <talus/materials/hyperelastic_law.h>
 #include <talus/materials/inverted_point.h>
@@ -83,7 +84,7 @@ namespace talus
     const StrainMeasure       measure,
     StressTangent<dim>       *linearization) const
   {
-    Assert(measure == StrainMeasure::large, dealii::ExcInternalError());
+    TalusAssert(measure == StrainMeasure::large, dealii::ExcInternalError());
     (void)measure;
     return linearize_by_state(points,
                               workspace,
@@ -106,7 +107,7 @@ namespace talus
     const unsigned int        end,
     const StrainMeasure       measure) const
   {
-    Assert(measure == StrainMeasure::large, dealii::ExcInternalError());
+    TalusAssert(measure == StrainMeasure::large, dealii::ExcInternalError());
     (void)measure;
     update_stress(points, workspace, begin, end, /*dt=*/1.);
   }

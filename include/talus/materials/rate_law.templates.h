@@ -2,6 +2,7 @@
 #ifndef talus_materials_rate_law_templates_h
 #define talus_materials_rate_law_templates_h
 
+#include <talus/base/assertion.h>
 #include <talus/base/errors.h>
 #include <talus/materials/inverted_point.h>
 #include <talus/materials/load_step.h>
@@ -138,9 +139,9 @@ namespace talus
                                            const unsigned int        end,
                                            const double              dt) const
   {
-    Assert(!is_plastic ||
-             plastic_variable_ != dealii::numbers::invalid_unsigned_int,
-           dealii::ExcMessage("add_columns() was not called."));
+    TalusAssert(!is_plastic ||
+                  plastic_variable_ != dealii::numbers::invalid_unsigned_int,
+                dealii::ExcMessage("add_columns() was not called."));
     const Moduli       moduli    = this->moduli();
     const Rule         flow      = rule;
     const auto         columns   = points.view();

@@ -2,6 +2,7 @@
 #ifndef talus_points_step_workspace_h
 #define talus_points_step_workspace_h
 
+#include <talus/base/assertion.h>
 #include <talus/points/points_view.h>
 
 #include <deal.II/base/aligned_vector.h>
@@ -29,9 +30,10 @@ namespace talus
     WorkspaceView<dim>
     view(const unsigned int begin, const unsigned int end) const
     {
-      Assert(begin_ <= begin && end <= end_,
-             dealii::ExcMessage("The workspace is that of other points: call "
-                                "reinit() first."));
+      TalusAssert(begin_ <= begin && end <= end_,
+                  dealii::ExcMessage(
+                    "The workspace is that of other points: call "
+                    "reinit() first."));
       (void)begin;
       (void)end;
       return {const_cast<double *>(memory_.data()), pitch_, begin_};
