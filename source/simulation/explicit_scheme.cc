@@ -25,13 +25,16 @@ namespace talus
     {
       const Points<dim> &points = state.points;
       const double      *mass   = points.data(points.mass);
-      const double       of_points =
-        Utilities::MPI::sum(std::accumulate(mass, mass + points.size(), 0.),
+      // In long double, as the round-off of a sum grows with its terms.
+      const double of_points =
+        Utilities::MPI::sum(double(
+                              std::accumulate(mass, mass + points.size(), 0.L)),
                             state.communicator());
-      double of_nodes = 0;
+      long double of_own_nodes = 0;
       for (const unsigned int node : state.nodes.active_nodes())
-        of_nodes += state.nodes.mass(node);
-      of_nodes = Utilities::MPI::sum(of_nodes, state.communicator());
+        of_own_nodes += state.nodes.mass(node);
+      const double of_nodes =
+        Utilities::MPI::sum(double(of_own_nodes), state.communicator());
       return std::abs(of_nodes - of_points) <= 1e-12 * of_points;
     }
   } // namespace

@@ -12,21 +12,26 @@
 
 namespace
 {
-  /// All suites, a line each: the name and the numbers of ranks to run it on.
-  /// The entries of ctest are made of it, so that no suite can be forgotten.
+  /// All tests, a line each: the name and the numbers of ranks to run it on.
+  /// The entries of ctest are made of the list, so that no suite can be
+  /// forgotten.
   int
-  list_suites()
+  list_tests()
   {
     const auto &tests = *testing::UnitTest::GetInstance();
     auto        ranks = further_ranks();
     for (int i = 0; i < tests.total_test_suite_count(); ++i)
       {
-        const std::string suite = tests.GetTestSuite(i)->name();
-        std::cout << suite << " 1";
-        for (const unsigned int n : ranks[suite])
-          std::cout << ' ' << n;
-        std::cout << std::endl;
-        ranks.erase(suite);
+        const auto &suite = *tests.GetTestSuite(i);
+        for (int k = 0; k < suite.total_test_count(); ++k)
+          {
+            std::cout << suite.name() << '.' << suite.GetTestInfo(k)->name()
+                      << " 1";
+            for (const unsigned int n : ranks[suite.name()])
+              std::cout << ' ' << n;
+            std::cout << std::endl;
+          }
+        ranks.erase(suite.name());
       }
     for (const auto &rest : ranks)
       std::cerr << "TALUS_ALSO_ON_RANKS names the suite '" << rest.first
@@ -40,10 +45,10 @@ namespace
 int
 main(int argc, char **argv)
 {
-  if (argc == 2 && std::strcmp(argv[1], "--list-suites") == 0)
+  if (argc == 2 && std::strcmp(argv[1], "--list-tests") == 0)
     {
       testing::InitGoogleTest();
-      return list_suites();
+      return list_tests();
     }
   talus::prepare_mpi();
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
