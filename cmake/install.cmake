@@ -13,35 +13,39 @@ foreach(library ${talus_libraries})
 endforeach()
 install(TARGETS talus_library LIBRARY
   DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development NAMELINK_ONLY)
-install(DIRECTORY prm DESTINATION share/talus COMPONENT program)
+install(DIRECTORY prm DESTINATION share/talus
+  COMPONENT program PATTERN __pycache__ EXCLUDE)
 install(FILES doc/parameters.prm DESTINATION share/doc/talus COMPONENT program)
-# Reports and studies; they compare with the reference of all parameters.
-install(PROGRAMS share/talus/talus-report share/talus/talus-study share/talus/talus-animate
-    share/talus/talus-compare share/talus/talus-pipe
-  DESTINATION bin COMPONENT program)
-install(DIRECTORY share/talus/talus_tools DESTINATION share/talus
-  COMPONENT program PATTERN __pycache__ EXCLUDE)
-# Readers of results for Python; runs need the component `python`.
-install(DIRECTORY share/talus/talus DESTINATION share/talus
-  COMPONENT program PATTERN __pycache__ EXCLUDE)
-install(FILES share/talus/study-example.prm share/talus/pipe-example.prm share/talus/paraview.py
-    doc/parameters.prm
-  DESTINATION share/talus COMPONENT program)
-install(DIRECTORY share/talus/examples DESTINATION share/talus COMPONENT program)
+# Tools for reports, studies and so on. All other files of share/talus keep their
+# places: modules of the tools, readers of results for Python (runs need the component
+# `python`), and examples.
+file(GLOB tools CONFIGURE_DEPENDS share/talus/talus-*)
+install(PROGRAMS ${tools} DESTINATION bin COMPONENT program)
+install(DIRECTORY share/talus/ DESTINATION share/talus COMPONENT program
+  PATTERN __pycache__ EXCLUDE
+  PATTERN talus.bash EXCLUDE
+  REGEX "/share/talus/talus-[^/]*$" EXCLUDE)
+# The tools compare with the reference of all parameters.
+install(FILES doc/parameters.prm DESTINATION share/talus COMPONENT program)
 
 # The pages name the options of `--help`, as tests check. Debian wants them packed.
 find_program(TALUS_GZIP gzip REQUIRED)
 mark_as_advanced(TALUS_GZIP)
-foreach(tool talus talus-report talus-study talus-animate talus-compare talus-pipe)
-  set(source ${CMAKE_SOURCE_DIR}/doc/man/${tool}.1)
-  set(page ${CMAKE_BINARY_DIR}/${tool}.1.gz)
+file(GLOB man_pages CONFIGURE_DEPENDS doc/man/*.1)
+foreach(source ${man_pages})
+  get_filename_component(name ${source} NAME)
+  set(page ${CMAKE_BINARY_DIR}/${name}.gz)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
   execute_process(COMMAND ${TALUS_GZIP} -9nc ${source}
     OUTPUT_FILE ${page} COMMAND_ERROR_IS_FATAL ANY)
   install(FILES ${page} DESTINATION share/man/man1 COMPONENT program)
 endforeach()
-install(FILES share/talus/talus.bash RENAME talus
-  DESTINATION share/bash-completion/completions COMPONENT program)
+# bash looks for a file with the name of the command.
+foreach(command talus ${tools})
+  get_filename_component(name ${command} NAME)
+  install(FILES share/talus/talus.bash RENAME ${name}
+    DESTINATION share/bash-completion/completions COMPONENT program)
+endforeach()
 
 # deal.II's headers are others where they assert.
 set(talus_deal_ii_variant RELEASE)

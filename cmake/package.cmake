@@ -67,10 +67,13 @@ set(CPACK_DEBIAN_PACKAGE_MAINTAINER ${maintainer})
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-# For talus-report and talus-study, with what they need besides.
+# Needed by the tools: Python, the packages that the tools name where a module is
+# missing, and packages for fields in HDF5 and for films.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "python3:any")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
-  "python3-numpy, python3-matplotlib, python3-jinja2, python3-scipy, python3-sklearn")
+string(CONCAT CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
+  "python3-numpy, python3-matplotlib, python3-pil, python3-jinja2, python3-scipy, "
+  "python3-sklearn")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-h5py, ffmpeg")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_EXTRA
   ${CMAKE_BINARY_DIR}/shlibs ${CMAKE_BINARY_DIR}/triggers)
 # Of a package the loader finds the libraries without.
@@ -92,7 +95,10 @@ set(CPACK_COMPONENT_PYTHON_DESCRIPTION
 arrays of numpy and obstacles moved by functions, and readers of results.")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
 "How far the soil runs, how fast, and how it comes to rest: in plane strain and
-in 3-D, from equilibrium and factor of safety to the run-out, with obstacles.")
+in 3-D, from equilibrium and factor of safety to the run-out, with obstacles.
+Tools write reports (talus-report), comparisons (talus-compare) and films
+(talus-animate), run studies (talus-study), fit parameters to an observed deposit
+(talus-calibrate), and compute the response of a pipeline (talus-pipe).")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 "Headers and the files of CMake for programs that lead runs or have constitutive
 laws of their own, and an example of such a program.")
