@@ -2,10 +2,13 @@
 # Writes FILE, an entry of ctest for each suite of PROGRAM and number of ranks;
 # run whenever PROGRAM was linked. MPIRUN is the command and its option for the
 # number of ranks, ENVIRONMENT what it wants to be told.
-execute_process(COMMAND ${PROGRAM} --list-suites
-  OUTPUT_VARIABLE suites OUTPUT_STRIP_TRAILING_WHITESPACE
+execute_process(COMMAND ${PROGRAM} --list-tests
+  OUTPUT_VARIABLE tests OUTPUT_STRIP_TRAILING_WHITESPACE
   COMMAND_ERROR_IS_FATAL ANY)
+# Of each test the suite and its numbers of ranks.
+string(REGEX REPLACE "\\.[^ \n]*" "" suites "${tests}")
 string(REPLACE "\n" ";" suites "${suites}")
+list(REMOVE_DUPLICATES suites)
 set(content "")
 foreach(line ${suites})
   separate_arguments(ranks UNIX_COMMAND "${line}")
@@ -13,7 +16,7 @@ foreach(line ${suites})
   foreach(n ${ranks})
     set(entry unit/${suite})
     set(mpirun "")
-    set(properties "LABELS unit")
+    set(properties "LABELS single")
     if(n GREATER 1)
       string(APPEND entry .${n}ranks)
       list(JOIN MPIRUN "\" \"" mpirun)

@@ -392,15 +392,18 @@ def all_pages(rows):
 
 
 def suites_of_ctest():
-    """Suites with the label `verification`, and the slow ones among them, as
-    tests/cases/CMakeLists.txt finds them in the sources."""
-    suites, slow = set(), set()
-    for path in glob.glob(os.path.join(DOC, "..", "tests", "cases", "*.cc")):
+    """Suites with the label `verification`, as tests/cases/CMakeLists.txt finds
+    them in the sources, and the slow ones among them, of tests/sets.csv."""
+    tests = os.path.join(DOC, "..", "tests")
+    suites = set()
+    for path in glob.glob(os.path.join(tests, "cases", "*.cc")):
         with open(path) as stream:
             text = stream.read()
         if "Verification" in text:
             suites.update(re.findall(r"^ *TEST\((\w+),", text, re.MULTILINE))
-            slow.update(re.findall(r"^TALUS_SLOW\((\w+)\)", text, re.MULTILINE))
+    with open(os.path.join(tests, "sets.csv"), newline="") as stream:
+        slow = {row["entry"].split("/")[-1] for row in csv.DictReader(stream)
+                if row["set"] == "slow"}
     return suites, slow
 
 

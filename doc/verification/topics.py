@@ -51,7 +51,8 @@ PAGES = [
     ("landslide", "The landslide of the paper", [
         ("Landslide to rest",
          ["LandslideFull", "LandslideFullUnsplit", "LandslideFourWay",
-          "LandslideStretched", "LandslideUnsplit", "LandslideSimilarity",
+          "LandslideStretched", "LandslideCoarse", "LandslideUnsplit",
+          "LandslideSimilarity",
           "LandslideOfLayers", "Landslide3d"]),
         ("Numerical fracture and thin slides", ["HangingBlock", "ThinSlide"]),
         ("Merging", ["LandslideMerged"]),

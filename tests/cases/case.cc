@@ -122,6 +122,21 @@ namespace talus::cases
 
 
 
+  Table
+  shared_run(const std::string &name)
+  {
+    const auto folder =
+      std::filesystem::path(TALUS_RESULTS_DIR) / "runs" / name;
+    if (!std::filesystem::exists(folder.string() + ".json"))
+      throw std::runtime_error("The run '" + name + "' is not in " +
+                               folder.string() + ". Compute it by 'ctest -R " +
+                               "run/" + name +
+                               "', or start the suite by ctest.");
+    return Table(folder / "statistics.csv");
+  }
+
+
+
   Overrides
   operator+(Overrides first, const Overrides &second)
   {

@@ -10,10 +10,6 @@
 #include <string>
 #include <vector>
 
-/// Give the suite the label `slow` of ctest, for minutes to an hour. Read from
-/// the sources by CMakeLists.txt.
-#define TALUS_SLOW(suite) [[maybe_unused]] constexpr bool suite##_is_slow = true
-
 namespace talus::cases
 {
   using Overrides = std::vector<std::string>;
@@ -91,6 +87,11 @@ namespace talus::cases
   run(const std::string &file,
       const std::string &name,
       const Overrides   &overrides = {});
+
+  /// statistics.csv of a run that several suites read; ctest computes it before
+  /// them, see add_shared_run() of CMakeLists.txt.
+  Table
+  shared_run(const std::string &name);
 
   /// @p first and then @p second.
   Overrides

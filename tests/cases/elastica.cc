@@ -13,8 +13,6 @@
 using namespace talus;
 using namespace talus::cases;
 
-TALUS_SLOW(ElasticaLoads);
-
 namespace
 {
   constexpr double  L = 20., h = 0.25; // m

@@ -13,10 +13,6 @@
 using namespace talus;
 using namespace talus::cases;
 
-TALUS_SLOW(StripFootingFine);
-TALUS_SLOW(VerticalCutSafetyFine);
-TALUS_SLOW(ClaySlopeFine);
-TALUS_SLOW(SlopeStability);
 
 // The lowest cell bears the shear stress at its middle, at the depth H - h/2.
 TEST(InfiniteSlope, FactorOfSafety)

@@ -13,8 +13,6 @@
 
 using namespace talus::cases;
 
-TALUS_SLOW(GypsumDamFine);
-
 namespace
 {
   /// Length of the deposit whose weight the yield stress of 1 kPa just holds,

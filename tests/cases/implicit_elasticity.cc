@@ -14,8 +14,6 @@
 using namespace talus;
 using namespace talus::cases;
 
-TALUS_SLOW(ImplicitElasticaLoads);
-
 namespace
 {
   const Overrides   standing_still = {"Stages=equilibrium",

@@ -36,9 +36,29 @@ TEST(LandslideStretched, WhatMustHoldToRest)
   Verification gates("Landslide, h = 0.4 m, stretched splitting",
                      "prm/landslide-quick.prm, Splitting/Directions=stretched",
                      "balance of momentum and energy");
-  const Table  table =
-    run<2>("landslide-quick.prm", "landslide-stretched", stretched);
-  expect_split_landslide(gates, table, 0.002);
+  expect_split_landslide(gates, shared_run("slide-stretched"), 0.002);
+}
+
+
+
+// The slide on cells of a sixth of its height, in seconds. Without splitting it
+// tears on smaller cells only, see LandslideUnsplit.
+TEST(LandslideCoarse, WithAndWithoutSplitting)
+{
+  const std::string coarse = "prm/landslide-quick.prm, Grid/Cell size=0.8";
+  Verification      split("Landslide, h = 0.8 m, stretched splitting",
+                     coarse + ", Splitting/Directions=stretched",
+                     "balance of momentum and energy");
+  expect_split_landslide(split, shared_run("slide-coarse"), 0.004);
+  Verification unsplit("Landslide, h = 0.8 m, unsplit",
+                       coarse + ", Splitting/Enabled=false",
+                       "balance of momentum and energy");
+  const Table  table = run<2>("landslide-quick.prm",
+                             "landslide-coarse-unsplit",
+                             unsplit_slide + Overrides{"Grid/Cell size=0.8"});
+  expect_momentum(unsplit, table);
+  expect_energy(unsplit, table, 0.01, 0.005);
+  EXPECT_EQ(table["splits"].back(), 0);
 }
 
 
@@ -53,7 +73,7 @@ TEST(LandslideMerged, ReturnsToThePointsOfTheStart)
                        ", Splitting/Directions=stretched, "
                             "Splitting/Merge=true",
                      "the same without merging; points of the start");
-  const Table       without = run<2>(file, "landslide-not-merged", stretched);
+  const Table       without = shared_run("slide-stretched");
   const Table       merged  = run<2>(file,
                               "landslide-merged",
                               stretched + Overrides{"Splitting/Merge=true"});

@@ -14,8 +14,6 @@
 using namespace talus;
 using namespace talus::cases;
 
-TALUS_SLOW(LandslideFromEquilibriumFine);
-
 namespace
 {
   constexpr double trigger = 2., later = 10.; // s

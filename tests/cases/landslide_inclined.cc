@@ -15,10 +15,6 @@
 using namespace talus;
 using namespace talus::cases;
 
-TALUS_SLOW(LandslideInclinedFull);
-TALUS_SLOW(LandslideInclinedFine);
-TALUS_SLOW(LandslideInclined3d);
-
 namespace
 {
   const std::string inclined_file = "landslide-inclined.prm";
@@ -148,11 +144,10 @@ namespace
 
 TEST(LandslideInclined, RunsAsOnTheFaceOfTheMesh)
 {
-  const Overrides end = {"End time=10"};
-  const Table     aligned =
-    run<2>("landslide-quick.prm", "landslide-aligned", stretched_only + end);
-  const Table  inclined = run<2>(inclined_file, "landslide-inclined", end);
-  Verification gates("Landslide on a seabed turned by 5 degrees, h = 0.4 m",
+  const Overrides end      = {"End time=10"};
+  const Table     aligned  = shared_run("slide-stretched");
+  const Table     inclined = run<2>(inclined_file, "landslide-inclined", end);
+  Verification    gates("Landslide on a seabed turned by 5 degrees, h = 0.4 m",
                      "prm/" + inclined_file,
                      "the same on a face of the mesh");
   expect_same_slide(gates, inclined, aligned, 5, {{5, 0.005}, {10, 0.005}});
@@ -210,8 +205,7 @@ TEST(LandslideInclinedFull, ToRest)
 {
   const std::vector<Gate> times = {
     {5, 0.005}, {10, 0.005}, {15, 0.005}, {20, 0.008}, {30, 0.01}};
-  const Table aligned =
-    run<2>("landslide-quick.prm", "landslide-aligned", stretched_only);
+  const Table aligned = shared_run("slide-stretched");
   {
     const Table  inclined = run<2>(inclined_file, "landslide-inclined");
     Verification gates("Landslide on a seabed turned by 5 degrees to rest",

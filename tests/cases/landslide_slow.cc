@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The landslide of the paper in full: minutes to an hour. Not among the tests
-// of every day; see the label `slow`.
+// The landslide of the paper in full: minutes to an hour.
 
 #include "landslide.h"
 
@@ -10,10 +9,6 @@
 
 using namespace talus;
 using namespace talus::cases;
-
-TALUS_SLOW(LandslideFourWay);
-TALUS_SLOW(LandslideFull);
-TALUS_SLOW(LandslideFullUnsplit);
 
 namespace
 {
@@ -44,12 +39,10 @@ TEST(LandslideFourWay, ToRestAndAgainstItsVariants)
 {
   const std::string file = "landslide-quick.prm";
   Verification      gates("Landslide, h = 0.4 m", "prm/" + file, slow_source);
-  const Table       four_way = run<2>(file, "landslide-four-way");
+  const Table       four_way = shared_run("slide");
   expect_split_landslide(gates, four_way, 0.002);
 
-  const Table stretched = run<2>(file,
-                                 "landslide-four-way-stretched",
-                                 {"Splitting/Directions=stretched"});
+  const Table stretched = shared_run("slide-stretched");
   expect_within(gates,
                 "stretched against four-way splitting",
                 stretched,
@@ -100,8 +93,8 @@ TEST(LandslideFull, ToRestAndAgainstCoarseCells)
   const Table  fine = run<2>("landslide.prm", "landslide-full");
   expect_split_landslide(gates, fine, 0.001);
 
-  const std::string name = "h = 0.4 against 0.2 m";
-  const Table coarse = run<2>("landslide-quick.prm", "landslide-full-coarse");
+  const std::string name   = "h = 0.4 against 0.2 m";
+  const Table       coarse = shared_run("slide");
   expect_within(gates, name, coarse, fine, "front x [m]", all_times, 0.01);
   expect_within(gates, name, coarse, fine, "centre x [m]", 16., 0.01);
   expect_within(gates, name, coarse, fine, "centre x [m]", 20., 0.015);

@@ -12,8 +12,6 @@
 using namespace talus;
 using namespace talus::cases;
 
-TALUS_SLOW(PipeRefined);
-
 namespace
 {
   const std::string pipe_file = "verification/pipe.prm";

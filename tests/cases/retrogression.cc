@@ -15,8 +15,6 @@
 using namespace talus;
 using namespace talus::cases;
 
-TALUS_SLOW(Retrogression);
-
 namespace retrogression_test
 {
   constexpr double height = 5.; // of the slope, m

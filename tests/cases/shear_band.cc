@@ -13,8 +13,6 @@
 using namespace talus;
 using namespace talus::cases;
 
-TALUS_SLOW(ShearBandFine);
-
 namespace shear_band_test
 {
   const std::string file   = "verification/shear-band.prm";

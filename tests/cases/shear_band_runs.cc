@@ -15,8 +15,6 @@
 using namespace talus;
 using namespace talus::cases;
 
-TALUS_SLOW(SlabFailure);
-
 namespace shear_band_runs_test
 {
   constexpr double wave_speed = 58.6; // of the slab, sqrt(E'/rho), m/s

@@ -16,8 +16,6 @@
 using namespace talus;
 using namespace talus::cases;
 
-TALUS_SLOW(VerticalCutBracket);
-
 namespace
 {
   constexpr double  height = 5., ramp_time = 1.5, end_of_cut = 5.; // m, s, s
