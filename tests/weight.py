@@ -120,7 +120,8 @@ def main():
                           ceiling["tokens"]),
         *problem_of_count("words", "README.md, CONTRIBUTING.md and the pages below "
                           "doc", written, ceiling["words"])]
-    print("\n".join(problems))
+    for line in problems:
+        print(line)
     return len(problems) > 0
 
 
