@@ -224,11 +224,14 @@ def runnable(tree, entries):
     found = {entry for entry in entries if tree.sets.get(entry) != "slow"}
     suites = {entry for entry in found
               if entry.startswith("unit/") and entry not in tree.sets}
-    if "quick" in found or len(suites) > MANY:
-        found -= suites
-        found |= set(fnmatch.filter(tree.sets, "unit/Part*"))
-        found |= set(fnmatch.filter(tree.sets, "unit/Ranks?"))
-    return found
+    if "quick" in found:
+        found |= {entry for entry in tree.sets if tree.sets[entry] == "quick"}
+    elif len(suites) > MANY:
+        found |= {*fnmatch.filter(tree.sets, "unit/Part*"),
+                  *fnmatch.filter(tree.sets, "unit/Ranks?")}
+    else:
+        return found
+    return found - suites
 
 
 def command_lines(tree, entries, build):
@@ -262,7 +265,8 @@ def main():
         print(f"# {path}: {len(found)} entries")
         affected |= found
     entries = runnable(tree, affected)
-    print(f"# {len(entries)} entries, about {tree.seconds(entries):.0f} s on two cores")
+    named = entries - {"quick"}
+    print(f"# {len(named)} entries, about {tree.seconds(named):.0f} s on two cores")
     if slow := sorted(name for name in affected if tree.sets.get(name) == "slow"):
         print("# slow, left out:", *slow)
     for line in command_lines(tree, entries, options.build):
