@@ -193,8 +193,8 @@ class Tree:
                    "line in include_arrows.cmake. Add what is missing.")
         for room in sorted(sources - rows - {None}):
             if not (ROOT / "tests/unit" / room).is_dir():
-                yield (f"The room {room} has neither the folder tests/unit/{room} nor a "
-                       "row in affected.csv. Add one of them.")
+                yield (f"The room {room} has neither the folder tests/unit/{room} "
+                       "nor a row in affected.csv. Add one of them.")
         for path, users in self.users.items():
             for user in users:
                 permitted = arrows.get(room_of(user))
