@@ -74,7 +74,7 @@ HEAD = """# Verification
 
 Each gate below is asserted by a test of the label `verification`. The pages are written from the results of the tests:
 
-    cmake --build build/release --target verification
+    cmake --build build/test --target verification
 
 runs all tests (expect an hour or more, most of it the landslides to rest), writes the pages and pictures, and fails if a
 gate fails. `python3 doc/verification/report.py --pages` writes the pages from the rows of earlier runs
