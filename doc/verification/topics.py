@@ -30,7 +30,7 @@ PAGES = [
         ("Obstacles", ["BlockOnPlane", "Arc", "Container", "Bowl"]),
         ("Pipes in clay", ["Pipe", "PipeRefined"]),
         ("Obstacles moved by forces", ["BodyOnSprings", "DraggedPipe"]),
-        ("Water", ["BlockInWater"]),
+        ("Water", ["BlockInWater", "SheetInWater"]),
         ("Runout, rest and outflow", ["Runout", "Rest", "Outflow"]),
     ]),
     ("statics", "Equilibrium and factor of safety", [

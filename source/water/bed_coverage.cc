@@ -109,8 +109,7 @@ namespace talus
         const bool       is_at_bottom = is_at_bottom_[segment.cell];
         const bool       is_at_facets =
           solid.exists() && !std::isnan(solid.distance(cell.nodes()[0]));
-        if ((!is_at_bottom && !is_at_facets) ||
-            is_full(grid, cell, volume_fraction))
+        if ((!is_at_bottom && !is_at_facets) || is_full(cell, volume_fraction))
           continue;
         if (is_at_bottom)
           for (unsigned int p = segment.begin; p < segment.end; ++p)
@@ -159,17 +158,15 @@ namespace talus
 
 
 
-  /// Whether all nodes of a cell are full, so that boxes are not needed. Ghosts
-  /// count as not full.
+  /// Whether all nodes of a cell are full, so that boxes are not needed.
   template <int dim>
   bool
-  BedCoverage<dim>::is_full(const Grid<dim>      &grid,
-                            const Cell<dim>      &cell,
-                            const VolumeFraction &volume_fraction) const
+  BedCoverage<dim>::is_full(const Cell<dim>      &cell,
+                            const VolumeFraction &volume_fraction)
   {
     const auto nodes = cell.nodes();
     return std::all_of(nodes.begin(), nodes.end(), [&](const unsigned int n) {
-      return n < grid.n_owned_nodes() && volume_fraction(n) >= full;
+      return volume_fraction(n) >= full;
     });
   }
 

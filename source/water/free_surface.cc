@@ -147,6 +147,8 @@ namespace talus
     exchange_.prepare(grid, width);
     exchange_of_soil_.prepare(grid, width_of_soil);
     exchange_of_areas_.prepare(grid, width_of_areas);
+    exchange_of_loads_.prepare(grid, 1);
+    area_per_mass_.assign(grid.n_nodes(), 0.);
     records_.assign(std::size_t(width) * grid.n_nodes(), 0.);
     soil_.assign(std::size_t(width_of_soil) * grid.n_nodes(), 0.);
     areas_of_nodes_.assign(std::size_t(width_of_areas) * grid.n_nodes(), 0.);
@@ -290,6 +292,7 @@ namespace talus
             std::min(1., nodes.volume(node) / solid_.open_volume(node));
           filled_nodes_.push_back(node);
         }
+    exchange_.copy_to_ghosts(records_.data()); // volume fractions
     coverage_.find(state, solid_, [this](const unsigned int node) {
       return record(node)[fraction];
     });
@@ -487,7 +490,6 @@ namespace talus
 
 
 
-  /// The momentum is the sum over the points, before forces act.
   template <int dim>
   void
   FreeSurface<dim>::update_soil(const State<dim> &state)
@@ -502,16 +504,17 @@ namespace talus
         double *const soil = soil_.data() + std::size_t(width_of_soil) * node;
         const double  mass = nodes.mass(node);
         const bool    has_soil        = mass > state.constants.mass_cutoff;
-        const Tensor<1, dim> momentum = nodes.momentum(node);
+        const Tensor<1, dim> velocity = nodes.velocity(node);
         soil[0]                       = has_soil ? mass : 0.;
         for (unsigned int d = 0; d < dim; ++d)
-          soil[1 + d] = has_soil ? momentum[d] : 0.;
+          soil[1 + d] = has_soil ? mass * velocity[d] : 0.;
       }
     exchange_of_soil_.copy_to_ghosts(soil_.data());
     for (const HangingNode *const hanging : hanging_nodes_)
       interpolate(*hanging, soil_, width_of_soil);
     for (SurfaceFacet<dim> &facet : facets_)
       set_soil(facet);
+    set_mobilities(state.grid);
   }
 
 
@@ -541,6 +544,76 @@ namespace talus
           facet.velocity[d] += node[1 + d];
       }
     facet.velocity /= sum;
+  }
+
+
+
+  // A node that several facets load is divided among them in proportion to
+  // area per mass of the soil at the facet. A facet that brakes its share of
+  // each node removes energy, and so does the mean of the shares: forces of all
+  // facets in one step never reverse the soil (mass splitting, see
+  // doc/method.md, section "Water").
+  /// Set the mobilities of all facets. Collective.
+  template <int dim>
+  void
+  FreeSurface<dim>::set_mobilities(const Grid<dim> &grid)
+  {
+    for (const unsigned int node : nodes_of_facets_)
+      area_per_mass_[node] = 0;
+    // All ghosts have the values of their owners from the step before.
+    std::fill(area_per_mass_.begin() + grid.n_owned_nodes(),
+              area_per_mass_.end(),
+              0.);
+    for (const SurfaceFacet<dim> &facet : facets_)
+      {
+        double soil = 0;
+        for (const unsigned int node : facet.node)
+          soil += mass(node);
+        if (soil > 0)
+          for (const unsigned int node : facet.node)
+            area_per_mass_[node] += facet.vector_area.norm() / soil;
+      }
+    for (const HangingNode *const hanging : hanging_nodes_)
+      {
+        for (const auto &[master, weight] : hanging->masters)
+          area_per_mass_[master] += weight * area_per_mass_[hanging->node];
+        area_per_mass_[hanging->node] = 0;
+      }
+    exchange_of_loads_.add_to_owners(area_per_mass_.data());
+    exchange_of_loads_.copy_to_ghosts(area_per_mass_.data());
+    for (const HangingNode *const hanging : hanging_nodes_)
+      for (const auto &[master, weight] : hanging->masters)
+        if (mass(hanging->node) > 0)
+          area_per_mass_[hanging->node] += weight * mass(master) /
+                                           mass(hanging->node) *
+                                           area_per_mass_[master];
+    for (SurfaceFacet<dim> &facet : facets_)
+      {
+        facet.mobility = 0;
+        for (unsigned int v = 0; v < facet.node.size(); ++v)
+          facet.mobility += facet.share[v] * area_per_mass_[facet.node[v]] /
+                            facet.vector_area.norm();
+      }
+  }
+
+
+
+  // In proportion to the soil of the masters, as the velocity of a facet is a
+  // mean over the soil: else the drag of a facet could add energy.
+  template <int dim>
+  void
+  FreeSurface<dim>::pass_to_masters(std::vector<double> &impulses) const
+  {
+    for (const HangingNode *const hanging : hanging_nodes_)
+      {
+        double *const from = &impulses[std::size_t(dim) * hanging->node];
+        for (const auto &[master, weight] : hanging->masters)
+          if (mass(hanging->node) > 0)
+            for (unsigned int d = 0; d < dim; ++d)
+              impulses[std::size_t(dim) * master + d] +=
+                weight * mass(master) / mass(hanging->node) * from[d];
+        std::fill_n(from, dim, 0.);
+      }
   }
 
 

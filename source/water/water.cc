@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/assertion.h>
 #include <talus/base/errors.h>
 #include <talus/water/water.h>
 
@@ -123,8 +124,8 @@ namespace talus
     if (!acts())
       return;
     surface_.prepare(grid);
-    exchange_of_forces_.prepare(grid, dim);
-    forces_.assign(std::size_t(dim) * grid.n_nodes(), 0.);
+    exchange_of_impulses_.prepare(grid, dim);
+    impulses_.assign(std::size_t(dim) * grid.n_nodes(), 0.);
   }
 
 
@@ -146,7 +147,6 @@ namespace talus
         surface_.find(state, contact_);
         path_at_surface_ = state.max_path;
       }
-    surface_.update_soil(state);
     add_inertia(state.nodes);
   }
 
@@ -191,89 +191,118 @@ namespace talus
 
 
 
-  /// Force of the water on a facet, N: friction along the facet, and pressure
-  /// where the facet moves into the water. The pressure acts on the vector
-  /// area, so that the pressures on a closed surface balance.
+  namespace
+  {
+    /// Impulse, N s, of a force that brakes a motion, and that falls with the
+    /// motion during the step: the motion slows down and never reverses.
+    /// @param impulse explicit value: force before the step times time step, N s
+    /// @param speed component of the velocity against the force, m/s
+    /// @param mobility change of the speed per impulse, 1/kg
+    double
+    braking_impulse(const double impulse,
+                    const double speed,
+                    const double mobility)
+    {
+      return speed > 0 ? impulse / (1. + mobility * impulse / speed) : 0.;
+    }
+  } // namespace
+
+
+
+  /// Impulse of the water on a facet in a step, N s: friction along the facet,
+  /// and pressure where the facet moves into the water. The pressure acts on
+  /// the vector area, so that the pressures on a closed surface balance.
   template <int dim>
   Tensor<1, dim>
-  Water<dim>::drag(const SurfaceFacet<dim> &facet) const
+  Water<dim>::drag_impulse(const SurfaceFacet<dim> &facet,
+                           const double             dt) const
   {
     const double         area       = facet.vector_area * facet.normal;
     const double         outwards   = facet.velocity * facet.normal;
     const Tensor<1, dim> tangential = facet.velocity - outwards * facet.normal;
-    const Tensor<1, dim> friction =
-      skin_friction_ * area * tangential.norm() * tangential;
-    const double pressure =
-      pressure_drag_ * std::pow(std::max(0., outwards), 2);
-    return -0.5 * density_ * (friction + pressure * facet.vector_area);
+    const double         speed      = tangential.norm();
+    const double         size       = facet.vector_area.norm();
+    const double         factor     = 0.5 * density_ * dt;
+    Tensor<1, dim>       impulse;
+    if (speed > 0)
+      impulse -= braking_impulse(factor * skin_friction_ * area * speed * speed,
+                                 speed,
+                                 facet.mobility) /
+                 speed * tangential;
+    if (outwards > 0)
+      impulse -=
+        braking_impulse(factor * pressure_drag_ * size * outwards * outwards,
+                        facet.velocity * facet.vector_area / size,
+                        facet.mobility) /
+        size * facet.vector_area;
+    return impulse;
   }
 
 
 
   template <int dim>
   Tensor<1, dim>
-  Water<dim>::force_at(const unsigned int node) const
+  Water<dim>::impulse_at(const unsigned int node) const
   {
-    Tensor<1, dim> force;
+    Tensor<1, dim> impulse;
     for (unsigned int d = 0; d < dim; ++d)
-      force[d] = forces_[std::size_t(dim) * node + d];
-    return force;
+      impulse[d] = impulses_[std::size_t(dim) * node + d];
+    return impulse;
   }
 
 
 
+  /// Sum the impulses of all facets at their nodes.
   template <int dim>
   void
-  Water<dim>::add_forces(State<dim> &state)
+  Water<dim>::find_impulses(const State<dim> &state)
   {
-    if (!acts())
-      return;
-    const auto add = [this](const unsigned int    node,
-                            const Tensor<1, dim> &force) {
-      for (unsigned int d = 0; d < dim; ++d)
-        forces_[std::size_t(dim) * node + d] += force[d];
-    };
+    surface_.update_soil(state);
+    for (const unsigned int node : surface_.nodes_of_facets())
+      std::fill_n(impulses_.begin() + std::size_t(dim) * node, dim, 0.);
     for (const SurfaceFacet<dim> &facet : surface_.facets())
       {
-        const Tensor<1, dim> force = drag(facet);
+        const Tensor<1, dim> impulse = drag_impulse(facet, state.time_step);
         for (unsigned int v = 0; v < facet.node.size(); ++v)
-          add(facet.node[v], facet.share[v] * force);
+          for (unsigned int d = 0; d < dim; ++d)
+            impulses_[std::size_t(dim) * facet.node[v] + d] +=
+              facet.share[v] * impulse[d];
       }
-    for (const HangingNode *const hanging : surface_.hanging_nodes_of_facets())
-      {
-        const Tensor<1, dim> force = force_at(hanging->node);
-        for (const auto &[master, weight] : hanging->masters)
-          add(master, weight * force);
-        add(hanging->node, -force);
-      }
-    exchange_of_forces_.add_to_owners(forces_.data());
-    for (const unsigned int node : surface_.nodes_of_facets())
-      if (node < state.grid.n_owned_nodes())
-        state.nodes.add_force(node, force_at(node));
+    surface_.pass_to_masters(impulses_);
+    exchange_of_impulses_.add_to_owners(impulses_.data());
   }
 
 
 
+  // The drag acts after the forces, on the velocities that they give: what it
+  // removes is exactly the loss of kinetic energy at the nodes. With the mean
+  // velocity of the step, as for forces, soil that other forces reverse in the
+  // step would seem to gain energy by drag.
+  /// Brake the soil at the free surface, and record energy and impulse.
   template <int dim>
   void
-  Water<dim>::record(State<dim> &state)
+  Water<dim>::correct_velocities(State<dim> &state)
   {
     if (!acts())
       return;
-    const double    dt    = state.time_step;
-    double         &work  = state.accounts.energy("drag work");
-    Tensor<1, dim> &total = state.accounts.impulse("drag impulse");
-    for (const unsigned int node : state.nodes.active_nodes())
+    find_impulses(state);
+    NodalFields<dim> &nodes = state.nodes;
+    Tensor<1, dim>   &total = state.accounts.impulse("drag impulse");
+    double            work  = 0;
+    for (const unsigned int node : surface_.nodes_of_facets())
       {
-        const Tensor<1, dim> force = force_at(node);
-        if (force == Tensor<1, dim>())
+        const Tensor<1, dim> impulse = impulse_at(node);
+        if (node >= state.grid.n_owned_nodes() || impulse == Tensor<1, dim>())
           continue;
-        const Tensor<1, dim> impulse = dt * force;
-        work -= impulse * state.nodes.mean_velocity(node);
+        const Tensor<1, dim> before = nodes.velocity(node);
+        const Tensor<1, dim> after  = before + impulse / nodes.mass(node);
+        nodes.set_velocity(node, after);
+        work -= 0.5 * impulse * (before + after);
         total += impulse;
       }
-    for (const unsigned int node : surface_.nodes_of_facets())
-      std::fill_n(forces_.begin() + std::size_t(dim) * node, dim, 0.);
+    TalusAssert(Utilities::MPI::sum(work, state.communicator()) >= 0,
+                ExcMessage("The drag of the water added energy to the soil."));
+    state.accounts.energy("drag work") += work;
   }
 
 

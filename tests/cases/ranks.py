@@ -233,6 +233,15 @@ class Ranks(Runs):
         alone = self.run_on(1, settings, "landslide-3d.prm")
         self.assert_same(self.run_on(3, settings, "landslide-3d.prm"), alone)
 
+    def test_water_in_three_dimensions(self):
+        """Drag, added mass and the rule of hydroplaning; cells get soil and lose
+        it beside the borders of ranks."""
+        box = CASES / "box-in-water-3d.prm"
+        alone = self.run_on(1, [], box)
+        self.assertGreater(alone["drag work [J]"][-1], 1e3)
+        for n_ranks in (2, 3):
+            self.assert_same(self.run_on(n_ranks, [], box), alone)
+
     def test_displaced_at_the_start(self):
         """By up to 1.4 cells, beyond the neighbours of a rank's cells."""
         settings = ["Grid/Cell size=0.03125", "Time step/Maximum=6e-5",

@@ -109,3 +109,33 @@ TEST(BlockInWater, DragConverges)
   EXPECT_NEAR(missing[0] / missing[1], 2., 0.2);
   EXPECT_NEAR(missing[1] / missing[2], 2., 0.2);
 }
+
+
+
+// A sheet of 2 cm on cells of a metre, thrown up at 20 m/s: the drag takes what
+// the sheet has in every interval, and the bed gives nothing.
+TEST(SheetInWater, DragOnlyBrakes)
+{
+  const Table  table  = run<2>("sheet-in-water.prm", "sheet-in-water");
+  const auto  &drag   = table["drag work [J]"];
+  const auto  &bed    = table["contact work [J]"];
+  const double energy = table["kinetic energy [J]"][0];
+  double       gained = 0, given = 0;
+  for (unsigned int i = 1; i < table.n_rows(); ++i)
+    {
+      gained = std::max(gained, drag[i - 1] - drag[i]);
+      given  = std::max(given, -bed[i]);
+    }
+  Verification rows("Thin sheet thrown into water",
+                    "tests/cases/sheet-in-water.prm",
+                    "drag brakes only");
+  rows.at_most("energy gained by drag in an interval / energy at the start",
+               gained / energy,
+               0.);
+  rows.at_most("energy lost by drag / energy at the start",
+               drag.back() / energy,
+               1.);
+  rows.at_most("energy given by the bed / energy at the start",
+               given / energy,
+               0.);
+}

@@ -74,10 +74,8 @@ namespace talus
     clear(const Grid<dim> &grid);
     static double
     share(double sum, double area, double f);
-    bool
-    is_full(const Grid<dim>      &grid,
-            const Cell<dim>      &cell,
-            const VolumeFraction &volume_fraction) const;
+    static bool
+    is_full(const Cell<dim> &cell, const VolumeFraction &volume_fraction);
     void
     add_boxes_at_facets(const State<dim>        &state,
                         const Segment           &segment,

@@ -23,7 +23,10 @@ namespace talus
     dealii::Tensor<1, dim> vector_area; ///< integral of the outward normal,
                                         ///< m^(dim-1)
     dealii::Tensor<1, dim> normal;      ///< unit, outwards, from cells around
-    dealii::Tensor<1, dim> velocity;    ///< soil velocity before step, m/s
+    dealii::Tensor<1, dim> velocity;    ///< mean of the soil at the nodes, m/s
+    double
+      mobility; ///< max change of velocity per impulse if the facets around
+                ///< act in the same step, 1/kg
   };
 
 
@@ -49,10 +52,16 @@ namespace talus
     void
     find(const State<dim> &state, const FacetContact<dim> &contact);
 
-    /// Set velocity and shares of all facets by the sums at the nodes.
-    /// Collective.
+    /// Set velocity, shares and mobility of all facets by mass and velocity of
+    /// the nodes after the momentum update. Collective.
     void
     update_soil(const State<dim> &state);
+
+    /// Pass impulses on hanging nodes to the masters, in proportion to the
+    /// soil; call after update_soil().
+    /// @param impulses dim numbers per node of the grid, N s
+    void
+    pass_to_masters(std::vector<double> &impulses) const;
 
     /// Table with a row for each facet of this rank: key of the cell (two
     /// numbers), vector area, m^(dim-1), and normal.
@@ -84,13 +93,6 @@ namespace talus
       return nodes_of_facets_;
     }
 
-    /// Hanging nodes of nodes_of_facets().
-    const std::vector<const HangingNode *> &
-    hanging_nodes_of_facets() const
-    {
-      return hanging_nodes_;
-    }
-
     /// Integral of the outward normal over the surface of the soil in cell
     /// @p cell, m^(dim-1); call after find().
     dealii::Tensor<1, dim>
@@ -120,7 +122,7 @@ namespace talus
       width
     };
 
-    /// By node: mass of the soil, kg, and momentum, kg m/s.
+    /// By node: mass of the soil, kg, and momentum after forces, kg m/s.
     static constexpr unsigned int width_of_soil = 1 + dim;
 
     /// By node: vector areas, m^(dim-1), of the cell with the node as lowest
@@ -159,14 +161,23 @@ namespace talus
     set_surface(const Cell<dim>              &cell,
                 const dealii::Tensor<1, dim> &own_area,
                 SurfaceFacet<dim>            &facet) const;
+    double
+    mass(const unsigned int node) const
+    {
+      return soil_[std::size_t(width_of_soil) * node];
+    }
     void
     set_soil(SurfaceFacet<dim> &facet) const;
+    void
+    set_mobilities(const Grid<dim> &grid);
 
     SolidAtNodes<dim>          solid_;
     BedCoverage<dim>           coverage_;
     std::vector<unsigned int>  first_cell_, cells_; ///< by node, with ghosts
     NodalExchange<dim>         exchange_, exchange_of_soil_, exchange_of_areas_;
+    NodalExchange<dim>         exchange_of_loads_;
     std::vector<double>        records_, soil_;
+    std::vector<double>        area_per_mass_; ///< by node, m^(dim-1)/kg
     std::vector<unsigned int>  nodes_of_facets_;
     std::vector<unsigned char> is_node_of_facets_;   ///< by node
     std::vector<const HangingNode *> hanging_nodes_; ///< among nodes_of_facets_

@@ -53,13 +53,8 @@ namespace talus
     void
     begin_step(State<dim> &state) override;
 
-    /// Add the drag on the free surface.
     void
-    add_forces(State<dim> &state) override;
-
-    /// Record energy and impulse of the drag.
-    void
-    record(State<dim> &state) override;
+    correct_velocities(State<dim> &state) override;
 
     /// List drag, momentum of the added mass, and Froude number.
     void
@@ -81,9 +76,11 @@ namespace talus
 
   private:
     dealii::Tensor<1, dim>
-    drag(const SurfaceFacet<dim> &facet) const;
+    drag_impulse(const SurfaceFacet<dim> &facet, double dt) const;
     dealii::Tensor<1, dim>
-    force_at(unsigned int node) const;
+    impulse_at(unsigned int node) const;
+    void
+    find_impulses(const State<dim> &state);
     void
     add_inertia(NodalFields<dim> &nodes) const;
 
@@ -98,8 +95,8 @@ namespace talus
     FreeSurface<dim> surface_;
     /// State::max_path at the search for surface_, m.
     double             path_at_surface_ = std::numeric_limits<double>::lowest();
-    NodalExchange<dim> exchange_of_forces_;
-    std::vector<double> forces_; ///< in the step, by node, N
+    NodalExchange<dim> exchange_of_impulses_;
+    std::vector<double> impulses_; ///< of the drag in the step, by node, N s
   };
 } // namespace talus
 

@@ -58,6 +58,7 @@ namespace
       fill(u);
       this->sort();
       this->scatter();
+      this->nodes.update_momentum(0., 0.);
       surface.find(*this, contact);
       surface.update_soil(*this);
       DragAreas<dim> result;
