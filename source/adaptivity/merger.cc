@@ -189,7 +189,9 @@ namespace talus
         reordering_.merge(points.segments(), none, removed_);
         reordering_.apply(points);
       }
-    TalusAssert(conservation_error() <= 1e-12, ExcInternalError());
+    TalusAssert(conservation_error() <= 1e-12,
+                ExcMessage("Merged points differ from their parts by more than "
+                           "round-off in mass, momentum or energy."));
     return loss;
   }
 

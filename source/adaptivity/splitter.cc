@@ -425,7 +425,9 @@ namespace talus
     statistics_.n_splits += marked_.size();
     statistics_.conservation_error = conservation_.relative_error();
     // The round-off of several thousand splits stays below 1e-12.
-    TalusAssert(statistics_.conservation_error <= 1e-12, ExcInternalError());
+    TalusAssert(statistics_.conservation_error <= 1e-12,
+                ExcMessage("Children differ from their parents by more than "
+                           "round-off in mass, momentum or energy."));
     marked_.clear();
     return true;
   }

@@ -4,29 +4,42 @@
 #include <talus/points/points_kernel.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace talus
 {
   namespace
   {
-    /// Return the weight per area, rho g H, Pa, of a column with the density of
-    /// point @p p and the height of all soil on this rank.
+    /// Return the weight per area, rho g H, Pa, of the soil above point @p p on
+    /// this rank: up to the highest point with a box in plan over the point.
     template <int dim>
     double
-    weight_of_soil(const Points<dim> &points, const unsigned int p)
+    weight_above(const Points<dim> &points,
+                 const unsigned int p,
+                 const double       density)
     {
-      const double *const y        = points.data(points.position, 1);
-      const auto [lowest, highest] = std::minmax_element(y, y + points.size());
-      const double density =
-        points.data(points.mass)[p] / points.data(points.reference_volume)[p];
-      return density * 9.81 * (*highest - *lowest);
+      double height = 0;
+      for (unsigned int q = 0; q < points.size(); ++q)
+        {
+          bool is_above = true;
+          for (unsigned int d = 0; d < dim; ++d)
+            if (d != 1)
+              is_above &= std::abs(points.data(points.position, d)[q] -
+                                   points.data(points.position, d)[p]) <=
+                          points.data(points.reference_length, d)[q];
+          if (is_above)
+            height = std::max(height,
+                              points.data(points.position, 1)[q] -
+                                points.data(points.position, 1)[p]);
+        }
+      return density * 9.81 * height;
     }
 
 
 
     /// Return sentences with the likely causes, the likeliest first. Soil with
-    /// a shear modulus below the weight per area would be squeezed to a
-    /// fraction of its height, which indicates a wrong unit.
+    /// a shear modulus below the weight above would be squeezed to a fraction
+    /// of its height, which indicates a wrong unit.
     std::string
     causes_of_inversion(const double shear_modulus, const double weight)
     {
@@ -35,7 +48,8 @@ namespace talus
         "there.";
       const std::string moduli = text("the shear modulus is ",
                                       shear_modulus,
-                                      " Pa, the weight of the soil per area ",
+                                      " Pa, the submerged weight of the soil "
+                                      "above, per area, ",
                                       weight,
                                       " Pa");
       if (shear_modulus < weight)
@@ -60,7 +74,8 @@ namespace talus
   throw_inverted_point(const Points<dim> &points,
                        const unsigned int begin,
                        const unsigned int end,
-                       const double       shear_modulus)
+                       const double       shear_modulus,
+                       const double       density)
   {
     for (unsigned int p = begin; p < end; ++p)
       {
@@ -70,17 +85,17 @@ namespace talus
         if (J > 0)
           continue;
         AssertThrow(false,
-                    ExcPoint(
-                      text("Point ",
-                           points.data(points.id)[p],
-                           " at (",
-                           load_place(points, points.position, p),
-                           ") m was turned inside out: the determinant of its "
-                           "deformation gradient is ",
-                           J,
-                           ", but must be positive. ",
-                           causes_of_inversion(shear_modulus,
-                                               weight_of_soil(points, p)))));
+                    ExcPoint(text(
+                      "Point ",
+                      points.data(points.id)[p],
+                      " at (",
+                      load_place(points, points.position, p),
+                      ") m was turned inside out: the determinant of its "
+                      "deformation gradient is ",
+                      J,
+                      ", but must be positive. ",
+                      causes_of_inversion(shear_modulus,
+                                          weight_above(points, p, density)))));
       }
   }
 

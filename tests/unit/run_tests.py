@@ -40,7 +40,7 @@ class Process:
         self.failed = set()
         self.limit = float(os.environ.get("TALUS_TEST_SECONDS", 300))
         self.process = subprocess.Popen(
-            [*command, "--gtest_filter=" + ":".join(tests)],
+            [*command, "--gtest_color=no", "--gtest_filter=" + ":".join(tests)],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
             start_new_session=True)
 

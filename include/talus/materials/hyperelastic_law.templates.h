@@ -69,7 +69,8 @@ namespace talus
                       columns, work, p, dt, energy);
                   });
     if (!is_sound)
-      throw_inverted_point(points, begin, end, this->shear_modulus());
+      throw_inverted_point(
+        points, begin, end, this->shear_modulus(), this->submerged_density());
   }
 
 

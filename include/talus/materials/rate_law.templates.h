@@ -171,7 +171,8 @@ namespace talus
     throw_inverted_point(points,
                          begin,
                          end,
-                         this->largest_shear_modulus(points, begin, end));
+                         this->largest_shear_modulus(points, begin, end),
+                         this->submerged_density());
     if constexpr (is_plastic)
       throw_unsolved_point(points, begin, end, plastic_variable_);
   }
