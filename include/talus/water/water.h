@@ -96,7 +96,8 @@ namespace talus
     /// State::max_path at the search for surface_, m.
     double             path_at_surface_ = std::numeric_limits<double>::lowest();
     NodalExchange<dim> exchange_of_impulses_;
-    std::vector<double> impulses_; ///< of the drag in the step, by node, N s
+    std::vector<double>
+      impulses_; ///< impulses of the drag in the step, by node, N s
   };
 } // namespace talus
 
