@@ -195,7 +195,7 @@ namespace talus
   {
     /// Impulse, N s, of a force that brakes a motion, and that falls with the
     /// motion during the step: the motion slows down and never reverses.
-    /// @param impulse explicit value, force before the step times its length, N s
+    /// @param impulse explicit value: force times time step, N s
     /// @param speed component of the velocity against the force, m/s
     /// @param mobility change of the speed per impulse, 1/kg
     double
