@@ -143,13 +143,11 @@ def conservation(run):
 def below_surface(run):
     """Soil that went through an obstacle."""
     table, result = run.tables["obstacles"], []
-    end = " deepest point [cells]"
-    for name in table.names if table else []:
-        if name.endswith(end) and table[name].max() > BELOW_SURFACE:
-            obstacle = name[:-len(end)]
-            unit = unit_of("[m^2]" if run.dimension == 2 else "[m^3]", run.dimension)
-            column = next(c for c in table.names
-                          if c.startswith(obstacle + " volume below surface"))
+    for obstacle in run.obstacle_names() if table else []:
+        name = obstacle + " deepest point [cells]"
+        if name in table and table[name].max() > BELOW_SURFACE:
+            unit = "m^2" if run.dimension == 2 else "m^3"
+            column = f"{obstacle} volume below surface [{unit}]"
             result.append(f"Up to {show(table[column].max(), unit)} of soil is below the surface "
                           f"of the obstacle '{obstacle}', at most "
                           f"{plain(table[obstacle + ' depth below surface [m]'].max(), 3)} m deep "

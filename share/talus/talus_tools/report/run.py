@@ -13,6 +13,7 @@ from talus_tools.errors import UserError
 from talus_tools.parameters import Defaults, changed_entries
 from talus_tools.report.log import Log
 from talus_tools.results import Results
+from talus_tools.texts import read_text
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 # The reference of all parameters: installed beside the tools, or in the source tree.
@@ -20,17 +21,6 @@ REFERENCES = [os.path.join(HERE, "../../parameters.prm"),
               os.path.join(HERE, "../../../../doc/parameters.prm")]
 # A run is at rest when its grid has less than this share of its largest kinetic energy.
 REST = 1e-3
-
-
-def read_text(path):
-    """Content of a text file; nothing if there is none."""
-    try:
-        with open(path, encoding="utf-8", errors="replace") as stream:
-            return stream.read()
-    except FileNotFoundError:
-        return ""
-    except OSError as error:
-        raise UserError(f"'{path}' cannot be read: {error.strerror}.") from error
 
 
 def has_rows(path):
@@ -56,13 +46,14 @@ class Run(Results):
         self.dimension = int(self.entries.get("Dimension", "2"))
         self.stages = self.entries.get("Stages", "dynamics")
         self.end_time = float(self.entries.get("End time", "0"))
-        self.log = Log(read_text(self.path("log.txt")), self.title)
+        log = read_text(self.path("log.txt")) if self.has("log.txt") else ""
+        self.log = Log(log, self.title)
         reference = [path for path in REFERENCES if os.path.isfile(path)]
         self.changed = changed_entries(self.entries, Defaults(reference[0])) if reference else None
         with open(self.path("parameters.prm"), "rb") as stream:
             content = stream.read()
         self.hash = hashlib.sha256(content).hexdigest()
-        self.parameter_text = content.decode("utf-8", errors="replace")
+        self.parameter_text = content.decode("utf-8-sig", errors="replace")
         self.versions = re.findall(r"^#   (.*)$", self.parameter_text, re.MULTILINE)
 
     def check_folder(self):
@@ -81,6 +72,14 @@ class Run(Results):
             self.empty.append(name)
             return None
         return self.table(name.removesuffix(".csv"))
+
+    def names(self, entry):
+        """Names in the list of an entry."""
+        return [name.strip() for name in self.entries.get(entry, "").split(",") if name.strip()]
+
+    def obstacle_names(self):
+        """Names of the obstacles."""
+        return self.names("Obstacles/Names")
 
     @property
     def time(self):

@@ -4,17 +4,18 @@
 import numpy
 
 from talus_tools.report.page import COLORS, Cell, Lines, Rows, Section, embed, subplots
+from talus_tools.report.places import station_names
 from talus_tools.units import show, unit_of
 
 TIME, THICKNESS = "time [s]", " thickness [m]"
 MOST = 6  # stations in one picture
 
 
-def columns_of(table):
-    """{station: {quantity with unit: column}}. Every station has a thickness, by which its
-    name is known; of two that fit a column the longer one is meant."""
-    names = [n[:-len(THICKNESS)] for n in table.names
-             if n.endswith(THICKNESS) and not n.endswith(" maximum" + THICKNESS)]
+def columns_of_stations(run):
+    """{station: {quantity with unit: column}} of the stations with a thickness; of two names
+    that fit a column the longer one is meant."""
+    table = run.tables["stations"]
+    names = [name for name in station_names(run) if name + THICKNESS in table.names]
     result = {name: {} for name in names}
     for column in table.names:
         fitting = [name for name in names if column.startswith(name + " ")]
@@ -68,7 +69,7 @@ def rows_of(table, columns, dimension):
 def stations(run):
     """Where stations.csv is. Stations that no soil reached are told in one sentence."""
     table = run.tables["stations"]
-    columns = columns_of(table) if table else {}
+    columns = columns_of_stations(run) if table else {}
     if not columns:
         return None
     reached = {name: own for name, own in columns.items() if table[own[THICKNESS[1:]]].any()}
