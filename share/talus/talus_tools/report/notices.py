@@ -176,6 +176,13 @@ def cut_off(run):
             for name, table in run.tables.items() if table and table.left_out]
 
 
+def damaged(run):
+    """Rows with NaN where a number must be."""
+    return [f"{n} {'row' if n == 1 else 'rows'} of {name} with values that are not numbers "
+            f"{'was' if n == 1 else 'were'} left out. The run failed, or the file was changed."
+            for name, n in run.damaged.items()]
+
+
 def empty_tables(run):
     """Tables that a run made and did not fill, as on a disk that is full."""
     names = list(run.empty)
@@ -206,5 +213,5 @@ def remarks(run):
 def notices(run):
     """All of them, the gravest first."""
     checks = (unfinished, mass, left, energy, fracture, split_limits, conservation, below_surface,
-              contact_area, moving, cut_off, empty_tables, without_h5py, remarks)
+              contact_area, moving, cut_off, damaged, empty_tables, without_h5py, remarks)
     return [sentence for check in checks for sentence in check(run)]

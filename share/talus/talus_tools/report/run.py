@@ -21,6 +21,9 @@ REFERENCES = [os.path.join(HERE, "../../parameters.prm"),
               os.path.join(HERE, "../../../../doc/parameters.prm")]
 # A run is at rest when its grid has less than this share of its largest kinetic energy.
 REST = 1e-3
+# Columns that every row needs, and columns of statistics.csv that are empty without soil.
+KEYS = ("time [s]", "x [m]", "z [m]")
+MAY_BE_EMPTY = ("front", "rear", "height", "centre", "densimetric")
 
 
 def has_rows(path):
@@ -31,12 +34,12 @@ def has_rows(path):
 
 class Run(Results):
     """Tables, parameters and log of a run; a table that is not there is None. `empty`: names
-    of the tables that have no complete row; `layer`: names of the bodies that are slab and weak
+    of the tables that have no complete row; `damaged`: number of rows left out by table; `layer`: names of the bodies that are slab and weak
     layer, or None."""
 
     def __init__(self, folder, layer=None):
         super().__init__(folder)
-        self.empty, self.layer = [], layer
+        self.empty, self.damaged, self.layer = [], {}, layer
         self.tables = {name: self.read(name + ".csv") for name in
                        ("statistics", "profile", "obstacles", "boundaries", "newton", "maps",
                         "stations", "runout", "bands")}
@@ -71,7 +74,25 @@ class Run(Results):
         if name != "statistics.csv" and not has_rows(path):
             self.empty.append(name)
             return None
-        return self.table(name.removesuffix(".csv"))
+        return self.sound(name, self.table(name.removesuffix(".csv")))
+
+    def sound(self, name, table):
+        """The rows of a table with all numbers that time, place and budgets need; other values
+        are NaN if they are not finite. None without such a row."""
+        values = table.values
+        values[~numpy.isfinite(values)] = numpy.nan
+        needed = [column for column in table.names if column in KEYS or name == "profile.csv" or (
+            name == "statistics.csv" and not column.startswith(MAY_BE_EMPTY))]
+        rows = numpy.isfinite([table[column] for column in needed]).all(axis=0)
+        if rows.all():
+            return table
+        self.damaged[name] = numpy.count_nonzero(~rows)
+        if rows.any():
+            return table.where(rows)
+        if name == "statistics.csv":
+            raise UserError(f"'{table.path}' has no row of numbers. The file was changed or "
+                            "damaged: run talus again.")
+        return None
 
     def names(self, entry):
         """Names in the list of an entry."""

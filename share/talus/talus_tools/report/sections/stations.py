@@ -12,17 +12,14 @@ MOST = 6  # stations in one picture
 
 
 def columns_of_stations(run):
-    """{station: {quantity with unit: column}} of the stations with a thickness; of two names
-    that fit a column the longer one is meant."""
-    table = run.tables["stations"]
-    names = [name for name in station_names(run) if name + THICKNESS in table.names]
-    result = {name: {} for name in names}
-    for column in table.names:
-        fitting = [name for name in names if column.startswith(name + " ")]
-        if fitting:
-            name = max(fitting, key=len)
-            result[name][column[len(name) + 1:]] = column
-    return result
+    """{station: {quantity with unit: column}}. The table has the same quantities of one station
+    after another, in the order of the parameters; a name alone may fit columns of two stations."""
+    table, names = run.tables["stations"], station_names(run)
+    n = (len(table.names) - 1) // max(len(names), 1)
+    blocks = {name: table.names[1 + n * i:1 + n * (i + 1)] for i, name in enumerate(names)}
+    return {name: {column[len(name) + 1:]: column for column in block}
+            for name, block in blocks.items()
+            if name + THICKNESS in block and all(c.startswith(name + " ") for c in block)}
 
 
 def histories(table, columns):
