@@ -93,7 +93,8 @@ def range_over_time(reader, name):
 def terrain_numbers(folder):
     """Numbers of the obstacles that are terrains, by parameters.prm."""
     try:
-        with open(os.path.join(folder, "parameters.prm"), encoding="utf-8") as stream:
+        with open(os.path.join(folder, "parameters.prm"), encoding="utf-8-sig",
+                  errors="replace") as stream:
             text = stream.read()
     except OSError:
         return []

@@ -30,7 +30,7 @@ if [ "$1" = --version ]; then echo "talus pretended 1"; exit 0; fi
 s=$(sed -n 's/^ *set Undrained shear strength = //p' "$1" | tail -1)
 b=$(sed -n 's/^ *set Maximum shear stress = //p' "$1" | tail -1)
 f=$(awk "BEGIN { printf \\"%.15g\\", $s/100 + 3*$b/100 }")
-printf 'time [s],front x [m]\\n0,9\\n1,%s\\n' "$f" > "$3/statistics.csv"
+printf 'time [s],runout [m]\\n0,9\\n1,%s\\n' "$f" > "$3/runout.csv"
 echo "A report of this run: talus-report $3" > "$3/log.txt"
 """
 # The first slope on cells of 2 m: half a second.
@@ -123,7 +123,7 @@ class Emulators(EmulatorCase):
         study = self.write("linear", self.pretender(), 16,
                            "subsection Emulator\nset Write = true\nend")
         said = self.run_tool("talus-study", study)
-        self.assertRegex(said, r"Emulator of front \[m\]: the other members explain "
+        self.assertRegex(said, r"Emulator of runout \[m\]: the other members explain "
                          r"(100.0|99.\d) % of the variance")
         folder = study.with_name("linear-output")
         indices = {row["parameter"]: row for row in read_csv(folder / "sobol.csv")}

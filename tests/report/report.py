@@ -377,7 +377,7 @@ class Maps(ReportCase):
                          [0.25, 0.1])
 
     def test_lines_over_x_and_stations(self):
-        folder = self.slide("2d")
+        folder = self.slide("2d", "Stations/Points=A: 20 | A 2: 90")
         (folder / "maps.csv").write_text(
             "x [m],maximum thickness [m],arrival time 0.1 m [s]\n0,0,nan\n1,2.5,3\n2,0.5,7\n")
         (folder / "stations.csv").write_text(

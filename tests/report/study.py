@@ -33,6 +33,13 @@ STRENGTH = """
     set Standard deviation = 500
   end
 """
+# The default, a runout, changes by whole columns of the mesh.
+FRONT = """subsection Quantities
+  set Names = front
+  subsection front
+    set Column = front x [m]
+  end
+end"""
 # In place of talus where only what is around the runs is tested: it writes the tables and
 # maps that a run with this strength might have. Strength 3 is an error.
 PRETENDER = """#!/bin/sh
@@ -41,6 +48,7 @@ s=$(sed -n 's/^ *set Undrained shear strength = \\([0-9]*\\).*/\\1/p' "$1" | tai
 if [ "$s" = 3 ]; then echo "talus: Point 7, that of body 0, left the mesh." >&2; exit 1; fi
 echo run >> "$3/runs"
 printf 'time [s],front x [m]\\n0,9\\n1,%s\\n2,0\\n' "$s" > "$3/statistics.csv"
+printf 'time [s],runout [m]\\n0,9\\n1,%s\\n2,0\\n' "$s" > "$3/runout.csv"
 echo "A report of this run: talus-report $3" > "$3/log.txt"
 MAPS
 """
@@ -121,7 +129,7 @@ class Interrupted(StudyCase):
     """The gate: killed in the middle and resumed, bit for bit the same."""
 
     def test_killed_and_resumed(self):
-        reference, killed = self.write("reference"), self.write("killed")
+        reference, killed = (self.write(name, FRONT) for name in ("reference", "killed"))
         self.study(reference, "--at-once", 2)
         process, folder = self.start(killed), self.output(killed)
         self.wait_for(lambda: len([p for p in folder.glob("*/member.json")
@@ -175,7 +183,7 @@ class Members(StudyCase):
         rows = read_csv(self.output(study) / "study.csv")
         self.assertEqual([row["status"] for row in rows], ["finished", "failed", "finished"])
         self.assertEqual(rows[1]["reason"], "Point 7, that of body 0, left the mesh.")
-        self.assertEqual(rows[1]["front [m]"], "")
+        self.assertEqual(rows[1]["runout [m]"], "")
         self.assertEqual([row["value"] for row in
                           read_csv(self.output(study) / "exceedance.csv")], ["0.0", "0.0"])
 
@@ -326,7 +334,7 @@ class Seeds(StudyCase):
         a seed that is given twice has the same."""
         start = "Materials/mud/Strength field/"
         study = self.write(
-            "seeds", "subsection Design\nset Kind = grid\nend", names="seed",
+            "seeds", FRONT, "subsection Design\nset Kind = grid\nend", names="seed",
             varied=f"subsection seed\nset Parameter = {start}Seed\nset Values = 1, 2, 1\nend",
             parameters=COARSE | {start + "Coefficient of variation": "0.3",
                                  start + "Correlation lengths": "20, 2"})
@@ -467,6 +475,29 @@ class Refused(StudyCase):
         self.assert_sentence(self.tool("talus-study", study), "'speed'", "front x [m]")
         self.assertIn("1,", self.study(study, "--list"))
         self.assertNotIn("finished", self.study(study, "--list"))
+
+    def test_maps_that_are_not_there(self):
+        """One member tells of maps.csv while it runs, of rasters when it has finished, and of the
+        name in the section Exceedance, too."""
+        for name, maps, text in (("section", LINES, "maximum-thickness"),
+                                 ("plan", RASTERS, "ground, maximum-thickness")):
+            program = self.pretender(name, maps=maps)
+            study = self.quantity(name, "set Map = max-thickness", "set Place = 0",
+                                  program=program)
+            self.assert_sentence(self.tool("talus-study", study), "member-0001 has no map "
+                                 "'max-thickness'", "quantity 'a'", f"it has {text}. Correct")
+            self.assertFalse((self.output(study) / "member-0002").exists())
+            study = self.grid(f"{name}-exceedance", "5, 6, 7", "subsection Exceedance\n"
+                              "set Map = thickness\nend", program=program)
+            self.assert_sentence(self.tool("talus-study", study), "no map 'thickness'",
+                                 "'Exceedance/Map'", f"it has {text}.")
+            self.assertFalse((self.output(study) / "member-0002").exists())
+
+    def test_place_that_is_not_on_the_map(self):
+        study = self.quantity("place", "set Map = maximum-thickness", "set Place = 9, 9",
+                              program=self.pretender("place", maps=RASTERS))
+        self.assert_sentence(self.tool("talus-study", study), "the place [9.0, 9.0]")
+        self.assertFalse((self.output(study) / "member-0002").exists())
 
     def test_table_that_is_not_written(self):
         study = self.quantity("unwritten", "set File = obstacles.csv")

@@ -55,7 +55,7 @@ class Case(unittest.TestCase):
 
 def read_csv(path):
     """Rows as dictionaries of texts."""
-    with open(path, newline="") as stream:
+    with open(path, newline="", encoding="utf-8-sig") as stream:
         return list(csv.DictReader(stream))
 
 

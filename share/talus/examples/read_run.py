@@ -29,12 +29,15 @@ print(f"title: {parameters.get('Title', '')}, cell size {parameters['Grid/Cell s
 
 # 2. A table: columns by their names (doc/output.md explains each).
 statistics = results.table("statistics")
-time, velocity = statistics["time"], statistics["centre velocity x"]
-fastest = numpy.argmax(numpy.abs(velocity))
-print(f"largest velocity of the centre: {velocity[fastest]:.4g} m/s at t = {time[fastest]:.4g} s")
+axes = "xz" if parameters["Dimension"] == "3" else "x"
+time = statistics["time"]
+# In plan, whatever the direction of the slide.
+speed = numpy.sqrt(sum(statistics[f"centre velocity {axis}"]**2 for axis in axes))
+fastest = numpy.argmax(speed)
+print(f"largest speed of the centre: {speed[fastest]:.4g} m/s at t = {time[fastest]:.4g} s")
 figure, (above, below) = plt.subplots(2, 1, figsize=(8, 6), constrained_layout=True)
-above.plot(time, velocity)
-above.set(xlabel="time [s]", ylabel="velocity of the centre along x [m/s]")
+above.plot(time, speed)
+above.set(xlabel="time [s]", ylabel="speed of the centre in plan [m/s]")
 
 # 3. Fields: the material points at one time, by default the last one.
 if len(results.times("points")):
@@ -43,9 +46,11 @@ if len(results.times("points")):
     centre = mass @ places / mass.sum()
     print(f"{len(points)} points at t = {points.time:.4g} s, centre of mass at "
           f"x = {centre[0]:.4g} m, y = {centre[1]:.4g} m")
-    drawn = below.scatter(places[:, 0], places[:, 1], c=points["speed"], s=1)
+    # A section in 2-D, the plan in 3-D.
+    drawn = below.scatter(places[:, 0], places[:, 2 if axes == "xz" else 1], c=points["speed"],
+                          s=1)
     figure.colorbar(drawn, ax=below, label="speed [m/s]")
-    below.set(xlabel="x [m]", ylabel="y [m]")
+    below.set(xlabel="x [m]", ylabel="z [m]" if axes == "xz" else "y [m]")
 
 # 4. Maps of a 3-D run: grids with easting and northing, NaN where there was no soil.
 if "maximum-thickness" in results.names_of_maps():

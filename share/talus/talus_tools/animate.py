@@ -13,6 +13,7 @@ from PIL import Image, ImageDraw, ImageFont
 from talus_tools.errors import Parser, UserError
 from talus_tools.report.film import film
 from talus_tools.report.run import Run
+from talus_tools.texts import shown
 
 DESCRIPTION = """Make a film of a run of talus: thickness and speed from above in 3-D, the soil in
 section in 2-D, one picture per time of its fields ('Output/Field interval'). A film needs ffmpeg
@@ -148,7 +149,7 @@ def main():
         raise UserError(f"'{options.folder}' has no fields at two times or more, of which a film "
                         "could be made: neither points ('Output/Write points') nor, in 3-D, "
                         "profile.csv ('Output/Runout').")
-    title = run.title or os.path.basename(os.path.abspath(options.folder))
+    title = run.title or shown(os.path.basename(os.path.abspath(options.folder)))
     write = write_gif if path.endswith(".gif") else write_mp4
     try:
         write(path + ".part", list(pictures(found, title)), options.fps)

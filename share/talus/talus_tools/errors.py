@@ -19,6 +19,10 @@ class Parser(argparse.ArgumentParser):
 
 def run_tool(name, main):
     """Run main() and return the exit status; a UserError becomes its sentence."""
+    for stream in (sys.stdout, sys.stderr):
+        # Names of files may have bytes, and numbers signs, that a terminal has not.
+        is_unicode = stream.encoding.lower().startswith("utf")
+        stream.reconfigure(errors="surrogateescape" if is_unicode else "replace")
     try:
         return main()
     except UserError as error:

@@ -6,6 +6,7 @@ import dataclasses
 import numpy
 
 from talus_tools.errors import UserError
+from talus_tools.texts import read_text
 
 KEYS = {"ncols", "nrows", "xllcorner", "yllcorner", "xllcenter", "yllcenter", "cellsize", "dx",
         "dy", "nodata_value"}
@@ -50,14 +51,13 @@ class Grid:
 def split(path):
     """The header as {key: number} and the words behind it."""
     try:
-        with open(path, encoding="ascii") as stream:
-            words = stream.read().split()
-    except (OSError, UnicodeDecodeError) as error:
-        raise UserError(f"'{path}' cannot be read as an Esri ASCII grid: {error}.") from error
-    header, at = {}, 0
-    while at + 1 < len(words) and words[at].lower() in KEYS:
-        header[words[at].lower()] = float(words[at + 1])
-        at += 2
+        words = read_text(path).split()
+        header, at = {}, 0
+        while at + 1 < len(words) and words[at].lower() in KEYS:
+            header[words[at].lower()] = float(words[at + 1])
+            at += 2
+    except ValueError as error:
+        raise UserError(f"'{path}' is no Esri ASCII grid: {error} in the header.") from error
     return header, words[at:]
 
 

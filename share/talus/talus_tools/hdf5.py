@@ -29,7 +29,7 @@ def read_hdf5(path):
 
 def text(attribute):
     """A text of fixed length as a string."""
-    return attribute.decode() if isinstance(attribute, bytes) else str(attribute)
+    return attribute.decode("utf-8", "replace") if isinstance(attribute, bytes) else str(attribute)
 
 
 class Hdf5Series(FileSeries):

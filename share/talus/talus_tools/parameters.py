@@ -4,15 +4,24 @@
 import re
 
 from talus_tools.errors import UserError
+from talus_tools.texts import read_input, read_text
 
+LINE_END = re.compile(r"\r?\n")
 ENTRY = re.compile(r"set\s+(.*?)\s*=\s*(.*)$")
 INCLUDE = re.compile(r"\s*(?:include|INCLUDE)\s+([^#]*[^#\s])")
 
 
-def lines_of(path):
+def split_lines(text):
+    """Lines of a text. str.splitlines() also splits at characters that talus takes as parts of a
+    line."""
+    lines = LINE_END.split(text)
+    return lines[:-1] if lines[-1] == "" else lines
+
+
+def lines_of(text):
     """Lines with their numbers, without comments; a trailing backslash joins two."""
     number, start, pending = 0, 1, ""
-    for number, line in enumerate(read_file(path).splitlines(), 1):
+    for number, line in enumerate(split_lines(text), 1):
         line = pending + line.split("#", 1)[0].strip()
         if not pending:
             start = number
@@ -24,17 +33,6 @@ def lines_of(path):
             yield start, line
 
 
-def read_file(path):
-    """Text of a file."""
-    try:
-        with open(path, encoding="utf-8") as stream:
-            return stream.read()
-    except OSError as error:
-        raise UserError(f"'{path}' cannot be read: {error.strerror}.") from error
-    except UnicodeDecodeError as error:
-        raise UserError(f"'{path}' is no text file: {error}.") from error
-
-
 def expand(path, depth=0):
     """Text of a file of talus with the lines of the files that it includes, which it names
     from the present folder."""
@@ -42,7 +40,7 @@ def expand(path, depth=0):
         raise UserError(f"'{path}' is included through more than 20 files; one of them may "
                         "include itself.")
     lines = []
-    for line in read_file(path).splitlines():
+    for line in split_lines(read_input(path)):
         found = INCLUDE.match(line)
         lines.append(expand(found[1], depth + 1) if found else line)
     return "\n".join(lines)
@@ -59,10 +57,11 @@ def as_text(entries):
     return "\n".join(lines) + "\n"
 
 
-def read_parameters(path):
-    """All entries in order, {"Section/Sub-section/Entry": value}."""
+def read_parameters(path, read=read_text):
+    """All entries in order, {"Section/Sub-section/Entry": value}. `read`: read_text() for a file
+    of a run, read_input() for a file of the user."""
     entries, sections = {}, []
-    for number, line in lines_of(path):
+    for number, line in lines_of(read(path)):
         found = ENTRY.match(line)
         if found:
             entries["/".join(sections + [found[1]])] = found[2]

@@ -9,6 +9,7 @@ from matplotlib import colormaps
 from matplotlib.colors import to_hex
 
 from talus_tools.report.sections.maps import GROUND, limits, meaning, read_maps, visible
+from talus_tools.texts import LENIENT
 
 # By this line a style is known as one that nobody has changed by hand.
 MARK = "<!-- Written by talus-report; take this line away to keep a style of your own. -->"
@@ -65,7 +66,7 @@ def is_of_user(path):
     """Whether somebody has made or changed this style."""
     if not os.path.isfile(path):
         return False
-    with open(path, encoding="utf-8", errors="replace") as stream:
+    with open(path, **LENIENT) as stream:
         return MARK not in stream.read()
 
 

@@ -3,10 +3,12 @@
 
 import copy
 import csv
+import io
 
 import numpy
 
 from talus_tools.errors import UserError
+from talus_tools.texts import LENIENT, read_text
 
 LINE = "line"  # column of lines.csv with the names
 
@@ -27,13 +29,16 @@ def split_unit(name):
 
 
 class Table:
-    """Columns by name, with the unit or without it, as numbers; the text of the last row as it
-    was written."""
+    """Columns by name, with the unit or without it, as numbers, but the column LINE as texts; the
+    text of the last row as it was written."""
 
     def __init__(self, path, names, rows, left_out):
         self.path = path
         self.names = names
-        self.values = numpy.array([[number(cell) for cell in row] for row in rows])
+        self.values = numpy.array([[number(cell) for cell in without_texts(names, row)]
+                                   for row in rows])
+        self.lines = numpy.array([row[names.index(LINE)].strip() for row in rows]
+                                 if LINE in names else [])
         self.last_row = dict(zip(names, rows[-1]))
         self.left_out = left_out
 
@@ -44,7 +49,9 @@ class Table:
         found = find_column(self.names, name)
         if found is None:
             raise UserError(f"'{self.path}' has no column '{name}'.")
-        return self.values[:, self.names.index(found)]
+        if found == LINE:
+            return self.lines
+        return self.values[:, without_texts(self.names, self.names).index(found)]
 
     @property
     def units(self):
@@ -57,7 +64,14 @@ class Table:
     def since(self, row):
         """The rows from this one on."""
         result = copy.copy(self)
-        result.values = self.values[row:]
+        result.values, result.lines = self.values[row:], self.lines[row:]
+        return result
+
+    def where(self, rows):
+        """The rows of a mask."""
+        result = copy.copy(self)
+        result.values = self.values[rows]
+        result.lines = self.lines[rows] if len(self.lines) else self.lines
         return result
 
 
@@ -66,10 +80,15 @@ def number(cell):
     return float(cell) if cell.strip() else numpy.nan
 
 
-def is_row_of_numbers(row, n_columns):
-    """Whether all cells are there and are numbers."""
+def without_texts(names, row):
+    """Cells of a row whose columns hold numbers."""
+    return [cell for name, cell in zip(names, row) if name != LINE] if LINE in names else row
+
+
+def is_complete(names, row):
+    """Whether all cells are there and are numbers, but for those of LINE."""
     try:
-        return len([number(cell) for cell in row]) == n_columns
+        return len(row) == len(names) and len([*map(number, without_texts(names, row))]) > 0
     except ValueError:
         return False
 
@@ -77,25 +96,28 @@ def is_row_of_numbers(row, n_columns):
 def header(path):
     """Names of the columns; nothing where the first line is not complete yet."""
     try:
-        with open(path, newline="", encoding="utf-8", errors="replace") as stream:
+        with open(path, newline="", **LENIENT) as stream:
             line = stream.readline()
     except OSError:
         return []
     return next(csv.reader([line])) if line.endswith("\n") else []
 
 
+def cells_of(path):
+    """Names of the columns, texts of the cells by row, and the whole text of a table."""
+    text = read_text(path)
+    try:
+        names, *rows = list(csv.reader(io.StringIO(text, newline=""))) or [[]]
+    except csv.Error as error:
+        raise UserError(f"'{path}' is no table of talus: {error}.") from error
+    return names, rows, text
+
+
 def read_table(path):
     """Read a table. A last line that is cut off, as one that is being written, is
     left out, which the table tells in `left_out`; any other is an error."""
-    try:
-        with open(path, newline="", encoding="utf-8") as stream:
-            text = stream.read()
-            names, *rows = list(csv.reader(text.splitlines())) or [[]]
-    except OSError as error:
-        raise UserError(f"'{path}' cannot be read: {error.strerror}.") from error
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise UserError(f"'{path}' is no table of talus: {error}.") from error
-    bad = [i for i, row in enumerate(rows) if not is_row_of_numbers(row, len(names))]
+    names, rows, text = cells_of(path)
+    bad = [i for i, row in enumerate(rows) if not is_complete(names, row)]
     # A line is whole when it has its end; before, its last number may lack digits.
     left_out = bool(rows) and (not text.endswith("\n") or bad == [len(rows) - 1])
     if left_out:
@@ -113,8 +135,7 @@ def read_table(path):
 def read_lines(path):
     """{line: {column: values}} of a table whose column `line` says which line a row belongs
     to; without one all rows are of one line. Incomplete rows are left out."""
-    with open(path, newline="", encoding="utf-8") as stream:
-        names, *rows = list(csv.reader(stream)) or [[]]
+    names, rows, _ = cells_of(path)
     groups = {}
     for row in rows:
         if len(row) == len(names):

@@ -7,6 +7,7 @@ from talus_tools.compare.pair import Pair
 from talus_tools.compare.sections import SECTIONS
 from talus_tools.errors import Parser, UserError
 from talus_tools.report.write import filled, write_page
+from talus_tools.texts import shown
 
 DESCRIPTION = """Write a page that compares two runs of talus: headline numbers with their
 differences, the parameters that differ, maps of both and of their difference, and histories. It is
@@ -24,7 +25,7 @@ def main():
     pair = Pair(options.first, options.second)
     sections = [section for section in (make(pair) for make in SECTIONS) if section]
     page = filled("compare.html", title=f"{pair.a.title or 'Two runs'}: comparison",
-                  labels=pair.labels, folders=[os.path.abspath(run.folder) for run in pair.runs],
+                  labels=pair.labels, folders=[shown(os.path.abspath(run.folder)) for run in pair.runs],
                   sections=sections)
     try:
         write_page(options.output, page)

@@ -9,6 +9,7 @@ from talus_tools.errors import UserError
 from talus_tools.esri import Grid
 from talus_tools.report.run import Run
 from talus_tools.report.sections.maps import GROUND, read_maps
+from talus_tools.texts import shown
 
 
 class Pair:
@@ -20,7 +21,7 @@ class Pair:
             raise UserError(f"'{first}' is a run in {self.a.dimension} dimensions, '{second}' one "
                             f"in {self.b.dimension}. Two runs of the same dimension were "
                             "expected.")
-        self.labels = [f"{letter}: {os.path.basename(os.path.abspath(run.folder))}"
+        self.labels = [f"{letter}: {shown(os.path.basename(os.path.abspath(run.folder)))}"
                        for letter, run in zip("AB", self.runs)]
 
     def tables(self, name):

@@ -12,7 +12,7 @@ from talus_tools.report.places import draw_places, places_of, structure_names
 from talus_tools.report.sections.lines import DISTANCE, FIRST as FIRST_ON_LINES, has_soil
 from talus_tools.report.sections.maps import (FIRST, FIRST_COLUMNS, GROUND, draw, limits, meaning,
                                               title, visible, window)
-from talus_tools.report.sections.stations import THICKNESS, columns_of
+from talus_tools.report.sections.stations import THICKNESS, columns_of_stations
 from talus_tools.report.sections.thalweg import columns_of, magnification
 from talus_tools.report.way import way_of
 from talus_tools.tables import read_lines
@@ -238,7 +238,7 @@ def stations(pair):
     tables = pair.tables("stations")
     if not tables:
         return None
-    names = [name + THICKNESS for name in columns_of(tables[0])
+    names = [name + THICKNESS for name in columns_of_stations(pair.a)
              if name + THICKNESS in tables[1]]
     names = [name for name in names if any(table[name].any() for table in tables)]
     return Section("stations", "Thickness at stations", "Of those that soil reached.",

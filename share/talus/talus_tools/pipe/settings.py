@@ -7,6 +7,7 @@ import math
 from talus_tools.entries import Entries
 from talus_tools.errors import UserError
 from talus_tools.parameters import read_parameters
+from talus_tools.texts import read_input
 
 # Entries and their defaults; an empty default is explained in doc/pipe.md.
 ENTRIES = {
@@ -63,7 +64,7 @@ class Settings(Entries):
     """All entries of a parameter file of talus-pipe."""
 
     def __init__(self, path):
-        super().__init__(path, read_parameters(path), ENTRIES)
+        super().__init__(path, read_parameters(path, read_input), ENTRIES)
         for name in self.entries:
             if name not in ENTRIES:
                 raise UserError(f"'{path}' sets '{name}', which is no entry of talus-pipe; "

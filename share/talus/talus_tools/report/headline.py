@@ -5,8 +5,8 @@ import dataclasses
 
 import numpy
 
-from talus_tools.report.places import structure_names
-from talus_tools.report.sections.forces import names_of
+from talus_tools.report.places import is_release, structure_names
+from talus_tools.report.sections.forces import having_forces
 from talus_tools.units import plain, show, unit_of
 
 
@@ -38,8 +38,7 @@ def safety(run):
 def forces(run):
     """The largest force on each of the first structures."""
     table, result = run.tables["obstacles"], []
-    names = [name for name in names_of(table) if name in structure_names(run).values()
-             ] if table else []
+    names = having_forces(table, structure_names(run).values()) if table else []
     for name in names[:2]:
         force = numpy.sqrt(sum(table[f"{name} force {axis} [N]"]**2
                                for axis in "xyz"[:run.dimension]))
@@ -54,14 +53,26 @@ def runout(run):
     table = run.tables["runout"]
     # Rows without soil that is thick enough have no front.
     distances = table["runout [m]"][numpy.isfinite(table["runout [m]"])]
-    speed = numpy.nan_to_num(table["speed of the centre [m/s]"])
+    speed = numpy.nan_to_num(table["largest depth-mean speed [m/s]"])
     result = [tile("runout", distances[-1], "m",
                    "Of the front from its start, along the way of the slide."
                    )] if len(distances) else []
     if speed.any():
-        result.append(tile("largest velocity", speed.max(), "m/s", "Of the centre of mass, at t = "
+        result.append(tile("largest speed", speed.max(), "m/s", "Mean over the depth, at t = "
                            f"{plain(table['time [s]'][speed.argmax()])} s."))
     return result
+
+
+def largest_on_maps(run):
+    """Largest depth-mean speed of all places [m/s]; 0 without maps."""
+    table = run.tables["maps"]
+    if table:
+        values = table["maximum speed"]
+    elif "maximum-speed" in run.names_of_maps():
+        values = run.map("maximum-speed").values
+    else:
+        return 0
+    return numpy.nanmax(values, initial=0)
 
 
 def along_x(run):
@@ -72,20 +83,37 @@ def along_x(run):
         result.append(tile("front at the end", front[-1], "m",
                            f"Largest x of a point; {show(front[-1] - front[0], 'm')} beyond the "
                            "start."))
-    velocity = table["centre velocity x [m/s]"]
-    at = int(numpy.argmax(numpy.abs(velocity)))
-    if velocity.any():
-        result.append(tile("largest velocity", velocity[at], "m/s",
-                           f"Of the centre of mass, at t = {plain(table['time [s]'][at])} s."))
+    if largest_on_maps(run):
+        return result + [tile("largest speed", largest_on_maps(run), "m/s",
+                              "Mean over the depth, by the maps.")]
+    speed = numpy.sqrt(sum(table[f"centre velocity {axis} [m/s]"]**2
+                           for axis in "xyz"[:run.dimension]))
+    if speed.any():
+        result.append(tile("largest speed of the centre", speed.max(), "m/s",
+                           "Of the centre of mass, at t = "
+                           f"{plain(table['time [s]'][speed.argmax()])} s."))
     return result
+
+
+def deposit(run):
+    """Largest thickness at the end in the columns outside of the release area."""
+    table = run.tables["profile"]
+    if table is None:
+        return []
+    time = table["time [s]"]
+    first, last = time == time[0], time == time[-1]
+    # Rounded, since the centres of columns are written as computed.
+    places = numpy.stack([numpy.round(table[f"{axis} [m]"], 6)
+                          for axis in "xyz"[:run.dimension:2]], axis=-1)
+    release = set(map(tuple, places[first][is_release(table["thickness [m]"][first])]))
+    is_outside = [tuple(place) not in release for place in places[last]]
+    thickness = table["thickness [m]"][last][is_outside]
+    return [tile("thickness of the deposit", thickness.max(), "m",
+                 f"Largest one outside of the release area, at t = {plain(time[-1])} s."
+                 )] if len(thickness) else []
 
 
 def headline(run):
     """At most eight tiles."""
     result = safety(run) + (runout(run) if run.tables["runout"] else along_x(run))
-    if run.tables["profile"]:
-        profile = run.tables["profile"]
-        last = profile["time [s]"] == profile["time [s]"][-1]
-        result.append(tile("thickness at the end", profile["thickness [m]"][last].max(), "m",
-                           "Largest one of the deposit."))
-    return result + forces(run)
+    return result + deposit(run) + forces(run)

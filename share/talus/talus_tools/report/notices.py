@@ -143,13 +143,11 @@ def conservation(run):
 def below_surface(run):
     """Soil that went through an obstacle."""
     table, result = run.tables["obstacles"], []
-    end = " deepest point [cells]"
-    for name in table.names if table else []:
-        if name.endswith(end) and table[name].max() > BELOW_SURFACE:
-            obstacle = name[:-len(end)]
-            unit = unit_of("[m^2]" if run.dimension == 2 else "[m^3]", run.dimension)
-            column = next(c for c in table.names
-                          if c.startswith(obstacle + " volume below surface"))
+    for obstacle in run.obstacle_names() if table else []:
+        name = obstacle + " deepest point [cells]"
+        if name in table and table[name].max() > BELOW_SURFACE:
+            unit = "m^2" if run.dimension == 2 else "m^3"
+            column = f"{obstacle} volume below surface [{unit}]"
             result.append(f"Up to {show(table[column].max(), unit)} of soil is below the surface "
                           f"of the obstacle '{obstacle}', at most "
                           f"{plain(table[obstacle + ' depth below surface [m]'].max(), 3)} m deep "
@@ -176,6 +174,13 @@ def cut_off(run):
     """Tables whose last line was not complete."""
     return [f"The last line of {name}.csv is not complete and was left out."
             for name, table in run.tables.items() if table and table.left_out]
+
+
+def damaged(run):
+    """Rows with NaN where a number must be."""
+    return [f"{n} {'row' if n == 1 else 'rows'} of {name} with values that are not numbers "
+            f"{'was' if n == 1 else 'were'} left out. The run failed, or the file was changed."
+            for name, n in run.damaged.items()]
 
 
 def empty_tables(run):
@@ -208,5 +213,5 @@ def remarks(run):
 def notices(run):
     """All of them, the gravest first."""
     checks = (unfinished, mass, left, energy, fracture, split_limits, conservation, below_surface,
-              contact_area, moving, cut_off, empty_tables, without_h5py, remarks)
+              contact_area, moving, cut_off, damaged, empty_tables, without_h5py, remarks)
     return [sentence for check in checks for sentence in check(run)]

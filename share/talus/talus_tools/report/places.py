@@ -18,6 +18,13 @@ RELEASE, ROUTE, STRUCTURE, WAY = "#c8442b", "#7a1fa2", "#111111", "#3c464e"
 HALO = [patheffects.withStroke(linewidth=2.2, foreground="white")]
 
 
+def station_names(run):
+    """Names of the stations."""
+    return [name.strip() for name, colon, _ in
+            (part.partition(":") for part in run.entries.get("Stations/Points", "").split("|"))
+            if colon]
+
+
 def stations_of(run):
     """{name: (easting, northing)} of 'Stations/Points'; what is no place is left out."""
     result, is_on_map = {}, run.entries.get("Stations/Coordinates", "mesh") == "map"
@@ -38,9 +45,8 @@ def routes_of(run):
 
 def structure_names(run):
     """Names of the obstacles but for terrains, which are the ground itself, by number."""
-    names = [name.strip() for name in run.entries.get("Obstacles/Names", "").split(",")]
-    return {i: name for i, name in enumerate(names)
-            if name and run.entries.get(f"Obstacles/{name}/Shape", "") != "terrain"}
+    return {i: name for i, name in enumerate(run.obstacle_names())
+            if run.entries.get(f"Obstacles/{name}/Shape", "") != "terrain"}
 
 
 def structures_of(run):
@@ -106,11 +112,15 @@ def label(axes, text, place, color):
                   color=color, path_effects=HALO, annotation_clip=True, zorder=6)
 
 
+def is_release(thickness):
+    """Where a thickness at the start is release area: more than a hundredth of the largest one, so
+    that slivers at an edge are no release areas of their own."""
+    return thickness > 0.01 * thickness.max()
+
+
 def draw_release(axes, grid):
-    """The outline of the cells that had soil at the start: more than a hundredth of the largest
-    thickness, so that slivers at an edge are no release areas of their own."""
-    thickness = numpy.nan_to_num(grid.values)
-    there = thickness > 0.01 * thickness.max()
+    """The outline of the release area."""
+    there = is_release(numpy.nan_to_num(grid.values))
     if there.any() and not there.all():
         east, north = grid.place(*numpy.indices(there.shape))
         axes.contour(east, north, there.astype(float), levels=[0.5], colors=RELEASE,

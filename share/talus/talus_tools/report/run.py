@@ -13,6 +13,7 @@ from talus_tools.errors import UserError
 from talus_tools.parameters import Defaults, changed_entries
 from talus_tools.report.log import Log
 from talus_tools.results import Results
+from talus_tools.texts import read_text
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 # The reference of all parameters: installed beside the tools, or in the source tree.
@@ -20,17 +21,9 @@ REFERENCES = [os.path.join(HERE, "../../parameters.prm"),
               os.path.join(HERE, "../../../../doc/parameters.prm")]
 # A run is at rest when its grid has less than this share of its largest kinetic energy.
 REST = 1e-3
-
-
-def read_text(path):
-    """Content of a text file; nothing if there is none."""
-    try:
-        with open(path, encoding="utf-8", errors="replace") as stream:
-            return stream.read()
-    except FileNotFoundError:
-        return ""
-    except OSError as error:
-        raise UserError(f"'{path}' cannot be read: {error.strerror}.") from error
+# Columns that every row needs, and columns of statistics.csv that are empty without soil.
+KEYS = ("time [s]", "x [m]", "z [m]")
+MAY_BE_EMPTY = ("front", "rear", "height", "centre", "densimetric")
 
 
 def has_rows(path):
@@ -41,12 +34,12 @@ def has_rows(path):
 
 class Run(Results):
     """Tables, parameters and log of a run; a table that is not there is None. `empty`: names
-    of the tables that have no complete row; `layer`: names of the bodies that are slab and weak
+    of the tables that have no complete row; `damaged`: number of rows left out by table; `layer`: names of the bodies that are slab and weak
     layer, or None."""
 
     def __init__(self, folder, layer=None):
         super().__init__(folder)
-        self.empty, self.layer = [], layer
+        self.empty, self.damaged, self.layer = [], {}, layer
         self.tables = {name: self.read(name + ".csv") for name in
                        ("statistics", "profile", "obstacles", "boundaries", "newton", "maps",
                         "stations", "runout", "bands")}
@@ -56,13 +49,14 @@ class Run(Results):
         self.dimension = int(self.entries.get("Dimension", "2"))
         self.stages = self.entries.get("Stages", "dynamics")
         self.end_time = float(self.entries.get("End time", "0"))
-        self.log = Log(read_text(self.path("log.txt")), self.title)
+        log = read_text(self.path("log.txt")) if self.has("log.txt") else ""
+        self.log = Log(log, self.title)
         reference = [path for path in REFERENCES if os.path.isfile(path)]
         self.changed = changed_entries(self.entries, Defaults(reference[0])) if reference else None
         with open(self.path("parameters.prm"), "rb") as stream:
             content = stream.read()
         self.hash = hashlib.sha256(content).hexdigest()
-        self.parameter_text = content.decode("utf-8", errors="replace")
+        self.parameter_text = content.decode("utf-8-sig", errors="replace")
         self.versions = re.findall(r"^#   (.*)$", self.parameter_text, re.MULTILINE)
 
     def check_folder(self):
@@ -80,7 +74,33 @@ class Run(Results):
         if name != "statistics.csv" and not has_rows(path):
             self.empty.append(name)
             return None
-        return self.table(name.removesuffix(".csv"))
+        return self.sound(name, self.table(name.removesuffix(".csv")))
+
+    def sound(self, name, table):
+        """The rows of a table with all numbers that time, place and budgets need; other values
+        are NaN if they are not finite. None without such a row."""
+        values = table.values
+        values[~numpy.isfinite(values)] = numpy.nan
+        needed = [column for column in table.names if column in KEYS or name == "profile.csv" or (
+            name == "statistics.csv" and not column.startswith(MAY_BE_EMPTY))]
+        rows = numpy.isfinite([table[column] for column in needed]).all(axis=0)
+        if rows.all():
+            return table
+        self.damaged[name] = numpy.count_nonzero(~rows)
+        if rows.any():
+            return table.where(rows)
+        if name == "statistics.csv":
+            raise UserError(f"'{table.path}' has no row of numbers. The file was changed or "
+                            "damaged: run talus again.")
+        return None
+
+    def names(self, entry):
+        """Names in the list of an entry."""
+        return [name.strip() for name in self.entries.get(entry, "").split(",") if name.strip()]
+
+    def obstacle_names(self):
+        """Names of the obstacles."""
+        return self.names("Obstacles/Names")
 
     @property
     def time(self):

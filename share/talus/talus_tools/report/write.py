@@ -8,7 +8,8 @@ from talus_tools.qgis import write_styles
 from talus_tools.report.contents import SECTIONS
 from talus_tools.report.headline import headline
 from talus_tools.report.notices import notices
-from talus_tools.report.run import HERE, Run, read_text
+from talus_tools.report.run import HERE, Run
+from talus_tools.texts import read_text, shown
 from talus_tools.units import plain
 
 try:
@@ -38,10 +39,10 @@ def filled(template, **values):
 def render(run):
     """The report as text."""
     sections = [section for section in (make(run) for make in SECTIONS) if section]
+    name = shown(os.path.basename(os.path.abspath(run.folder)))
     return filled(
-        "report.html", script=read_text(os.path.join(HERE, "slider.js")),
-        name=os.path.basename(os.path.abspath(run.folder)),
-        title=run.title or os.path.basename(os.path.abspath(run.folder)), subtitle=subtitle(run),
+        "report.html", script=read_text(os.path.join(HERE, "slider.js")), name=name,
+        title=run.title or name, subtitle=subtitle(run),
         finished=run.is_finished(), notices=notices(run), tiles=headline(run), sections=sections,
         version=run.versions[0] if run.versions else "", hash=run.hash[:12])
 

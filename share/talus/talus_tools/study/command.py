@@ -10,8 +10,10 @@ import scipy
 from talus_tools.errors import Parser, UserError
 from talus_tools.study.ensemble import lock, make_members, program_version, run_members
 from talus_tools.study.member import FAILED, FINISHED
+from talus_tools.study.quantities import ExceedanceMap
 from talus_tools.study.results import Results, plan_maps, section_maps, write_tables
 from talus_tools.study.settings import ENTRIES, MEMBER, MOVING, STATUS, Settings
+from talus_tools.texts import read_input
 
 DESCRIPTION = """Run talus many times with varied parameters, and tell how the results are
 distributed. Run it again after an interruption: finished members are kept, others go on."""
@@ -51,8 +53,7 @@ def write_record(settings, version):
         f"  Python {platform.python_version()}, NumPy {numpy.__version__}, "
         f"SciPy {scipy.__version__}")]
     lines += [f"# {name} = {value}" for name, value in known.items()]
-    with open(settings.path, encoding="utf-8") as stream:
-        content = stream.read()
+    content = read_input(settings.path)
     path = os.path.join(settings.folder, "study.prm")
     if os.path.realpath(path) == os.path.realpath(settings.path):
         raise UserError(f"'{settings.path}' would be written over by the record of the study. "
@@ -90,13 +91,18 @@ def write_results(settings, members):
     return 1 if failed else 0 if n_done == len(members) else UNFINISHED
 
 
+def named(settings):
+    """All that asks for a column or a map."""
+    return [*settings.quantities, ExceedanceMap(settings.map)]
+
+
 def run_one(settings, members, number):
     """A task of a job array writes no common file."""
     if not 1 <= number <= len(members):
         raise UserError(f"--member {number} was given, where a number from 1 to {len(members)} "
                         "was expected.")
     member = members[number - 1]
-    run_members([member], 1, settings.quantities)
+    run_members([member], 1, named(settings))
     status, _ = member.state()
     return {FINISHED: 0, FAILED: 1}.get(status, UNFINISHED)
 
@@ -120,5 +126,5 @@ def main():
     with lock(settings.folder):
         write_record(settings, version)
         if not options.collect:
-            run_members(members, options.at_once or settings.at_once, settings.quantities)
+            run_members(members, options.at_once or settings.at_once, named(settings))
         return write_results(settings, members)

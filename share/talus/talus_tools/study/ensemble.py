@@ -19,7 +19,7 @@ def program_version(settings):
         raise UserError(f"The program '{settings.program}' was not found. Give its path as "
                         "'Program' in the study file, or with --program.")
     result = subprocess.run([settings.program, "--version"], capture_output=True, text=True,
-                            check=False)
+                            errors="replace", check=False)
     # MPI and its libraries may have something to say, too.
     lines = [line for line in result.stdout.splitlines() if line.startswith("talus ")]
     if result.returncode != 0 or not lines:
@@ -64,17 +64,22 @@ class Stop:
 
 
 class ColumnCheck:
-    """Checks the files and columns of the quantities as soon as any member has written them, so
-    that a misspelt name does not show only when all members have run."""
+    """Checks the names in the quantities as soon as any member has written its tables, and takes
+    the numbers of the first finished member: an error then ends the study before further members
+    run."""
 
     def __init__(self, quantities):
-        self.pending = list(quantities)
+        self.pending, self.untried = list(quantities), list(quantities)
 
     def __call__(self, member, has_finished=False):
-        """Throw a UserError if a table of this member has no column of that name, or if the
-        member has finished without the table or the map."""
+        """Throw a UserError if this member has no column or map of a name, or has finished without
+        a number."""
         self.pending = [quantity for quantity in self.pending
                         if not quantity.is_found(member, has_finished)]
+        if has_finished:
+            for quantity in self.untried:
+                quantity.value(member)
+            self.untried = []
 
 
 def run_members(members, at_once, quantities):

@@ -13,6 +13,7 @@ import time
 
 from talus_tools.parameters import as_text, expand
 from talus_tools.report.log import Log
+from talus_tools.texts import LENIENT
 
 FINISHED, FAILED, STARTED, STOPPED, WAITING = ("finished", "failed", "started", "stopped",
                                                "waiting")
@@ -140,7 +141,7 @@ class Member:
 
     def reason(self, code):
         """Why it failed: what talus said last, or the signal that killed it."""
-        with open(self.path("errors.txt"), encoding="utf-8", errors="replace") as stream:
+        with open(self.path("errors.txt"), **LENIENT) as stream:
             lines = [line.strip() for line in stream if line.strip()]
         said = [line for line in lines if line.startswith("talus: ")] or lines
         if said:
@@ -154,7 +155,7 @@ class Member:
         """Whether the log says that the run came to its end. The exit status is that of the
         launcher, which may have run nothing."""
         try:
-            with open(self.path("log.txt"), encoding="utf-8", errors="replace") as stream:
+            with open(self.path("log.txt"), **LENIENT) as stream:
                 return Log(stream.read()).has_ended()
         except OSError:
             return False

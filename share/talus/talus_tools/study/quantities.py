@@ -2,6 +2,7 @@
 """Results of a member that a study compares: one number of a table or of a map each."""
 
 import dataclasses
+import glob
 import os
 import re
 
@@ -9,7 +10,7 @@ import numpy
 
 from talus_tools.errors import UserError
 from talus_tools.esri import read_grid
-from talus_tools.tables import header, read_table
+from talus_tools.tables import header, read_table, split_unit
 
 
 @dataclasses.dataclass
@@ -53,6 +54,33 @@ class Quantity:
         return float(numpy.nanmax(column) if self.take == "maximum" else numpy.nanmin(column))
 
 
+def maps_of(member):
+    """Names of the maps that a member has written, as of the rasters of a 3-D run."""
+    names = [split_unit(name)[0].replace(" ", "-") for name in header(member.path("maps.csv"))
+             if name != "x [m]"]
+    paths = glob.glob(os.path.join(glob.escape(member.path("maps")), "*.asc"))
+    return names + sorted(os.path.basename(path)[:-len(".asc")] for path in paths)
+
+
+@dataclasses.dataclass
+class ExceedanceMap:
+    """Map of 'Exceedance/Map'; members without any map have no exceedance maps."""
+    map: str
+
+    def is_found(self, member, has_finished):
+        """As of a quantity."""
+        names = maps_of(member)
+        if self.map in names or (has_finished and not names):
+            return True
+        if has_finished or (names and os.path.isfile(member.path("maps.csv"))):
+            raise UserError(f"{member.name} has no map '{self.map}', which 'Exceedance/Map' asks "
+                            f"for; it has {', '.join(names)}.")
+        return False
+
+    def value(self, _):
+        """No number is taken."""
+
+
 @dataclasses.dataclass
 class MapQuantity:
     """One number of a map: the value at a place, or the overlap with an observed deposit.
@@ -80,12 +108,15 @@ class MapQuantity:
 
     def is_found(self, member, has_finished):
         """Whether the map exists; see Quantity."""
-        if os.path.isfile(self.raster(member)) or header(member.path("maps.csv")):
+        names = maps_of(member)
+        if self.map in names:
             return True
-        if has_finished:
-            raise UserError(f"{member.name} has finished without the map '{self.map}', which the "
-                            f"quantity '{self.name}' asks for. Set 'Maps/Write' = true in the "
-                            "section 'Parameters', or correct the name of the map.")
+        # The table of a section has all maps from the first row on, a folder one after another.
+        if has_finished or (names and os.path.isfile(member.path("maps.csv"))):
+            raise UserError(f"{member.name} has no map '{self.map}', which the quantity "
+                            f"'{self.name}' asks for; it has {', '.join(names) or 'none'}. Correct "
+                            "the name of the map, or set 'Maps/Write' = true in the section "
+                            "'Parameters'.")
         return False
 
     def value(self, member):

@@ -10,6 +10,7 @@ from talus_tools.entries import Entries
 from talus_tools.errors import UserError
 from talus_tools.parameters import read_parameters
 from talus_tools.study.quantities import MapQuantity, Quantity
+from talus_tools.texts import read_input
 
 # Entries and their defaults; NAME stands for the names that `Names` lists.
 ENTRIES = {
@@ -20,8 +21,8 @@ ENTRIES = {
     "Varied/NAME/Values": "", "Varied/NAME/Distribution": "uniform", "Varied/NAME/Lower": "",
     "Varied/NAME/Upper": "", "Varied/NAME/Mode": "", "Varied/NAME/Mean": "",
     "Varied/NAME/Standard deviation": "",
-    "Quantities/Names": "", "Quantities/NAME/File": "statistics.csv",
-    "Quantities/NAME/Column": "front x [m]", "Quantities/NAME/Take": "final",
+    "Quantities/Names": "", "Quantities/NAME/File": "", "Quantities/NAME/Column": "",
+    "Quantities/NAME/Take": "final",
     "Quantities/NAME/Map": "", "Quantities/NAME/Place": "", "Quantities/NAME/Outline": "",
     "Quantities/NAME/Threshold": "0.1",
     "Exceedance/Map": "maximum-thickness", "Exceedance/Thresholds": "0.1, 1",
@@ -37,6 +38,8 @@ MEMBER, STATUS, MOVING, HASH, REASON = ("member", "status", "moving at the end",
 # Tables of talus whose columns are all numbers.
 TABLES = ("statistics.csv", "profile.csv", "obstacles.csv", "boundaries.csv", "newton.csv",
           "maps.csv", "stations.csv", "runout.csv", "bands.csv")
+# File and column of a quantity that names neither: right for any direction of the slide.
+RUNOUT = ("runout.csv", "runout [m]")
 TAKES = ("final", "maximum", "minimum")
 KINDS = ("Latin hypercube", "grid")
 # Numbers that each distribution needs, all in the unit of the parameter.
@@ -69,7 +72,7 @@ class Settings(Entries):
     """All of a study file; `fixed` are entries over those of the case, for all members."""
 
     def __init__(self, path):
-        entries = read_parameters(path)
+        entries = read_parameters(path, read_input)
         self.fixed = {name.partition("/")[2]: value for name, value in entries.items()
                       if name.startswith("Parameters/")}
         for name, value in self.fixed.items():
@@ -92,7 +95,7 @@ class Settings(Entries):
         self.seed = self.whole("Design/Seed", 0)
         self.varied = [self.read_varied(name) for name in self.names("Varied")]
         self.quantities = [self.read_quantity(name) for name in self.names("Quantities")] or [
-            Quantity("front", "statistics.csv", "front x [m]", "final")]
+            Quantity("runout", *RUNOUT, "final")]
         self.map = self.get("Exceedance/Map")
         self.thresholds = self.numbers("Exceedance/Thresholds")
         self.emulates = self.one_of("Emulator/Write", ("false", "true")) == "true"
@@ -177,14 +180,15 @@ class Settings(Entries):
         start = f"Quantities/{name}/"
         if self.get(start + "Map"):
             return self.read_map_quantity(name)
+        column = self.get(start + "Column") or RUNOUT[1]
+        file = self.get(start + "File") or (
+            RUNOUT[0] if column == RUNOUT[1] else "statistics.csv")
         # A launcher may write tables of its own.
-        file = self.get(start + "File")
         if file not in TABLES and not (self.launcher and os.path.basename(file) == file):
             raise self.error(start + "File", "a table of talus with numbers only ("
                              + ", ".join(TABLES) + ") or, with a 'Launcher', another file in the "
                              "folder of the member")
-        return Quantity(name, self.get(start + "File"), self.get(start + "Column"),
-                        self.one_of(start + "Take", TAKES))
+        return Quantity(name, file, column, self.one_of(start + "Take", TAKES))
 
     def read_map_quantity(self, name):
         """One section of Quantities that asks for a map."""

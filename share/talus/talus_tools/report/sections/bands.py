@@ -107,16 +107,17 @@ class Layer:
         return 2 / ratio * math.sqrt(2 * square / 3 * (1 - ratio + ratio * math.log(ratio)))
 
 
-def bodies_of(table):
+def bodies_of(run):
     """Names of the softening bodies; "length", in 3-D "area"; its unit."""
-    kind, unit = ("length", "m") if any("length of" in n for n in table.names) else ("area", "m^2")
-    start, end = f"yielded {kind} of ", f" [{unit}]"
-    return [n[len(start):-len(end)] for n in table.names if n.startswith(start)], kind, unit
+    kind, unit = ("length", "m") if run.dimension == 2 else ("area", "m^2")
+    return [name for name in run.names("Bodies/Names")
+            if f"yielded {kind} of {name} [{unit}]" in run.tables["bands"]], kind, unit
 
 
-def picture(table, lengths):
+def picture(run, lengths):
     """Extent of the bands over time, with the critical lengths."""
-    bodies, kind, unit = bodies_of(table)
+    table = run.tables["bands"]
+    bodies, kind, unit = bodies_of(run)
     figure, axes = subplots(height=2.8)
     for body, color in zip(bodies, COLORS * len(bodies)):
         for state, style in (("yielded", "-"), ("residual", "--")):
@@ -161,18 +162,18 @@ def bands(run):
         static = Layer(run.entries, *run.layer).critical_length()
         lengths = [("static critical length", static),
                    ("dynamic critical length", SUDDEN * static)]
-    bodies, kind, unit = bodies_of(table)
+    bodies, kind, unit = bodies_of(run)
     rows = []
     for body in bodies:
         for column in (f"yielded {kind} of {body} [{unit}]", f"residual {kind} of {body} [{unit}]",
                        f"growth of the yielded {kind} of {body} [{unit}/s]",
                        f"plastic work of {body} [J]"):
             at = int(table[column].argmax())
-            rows.append([body, column.partition(" of " + body)[0],
+            rows.append([body, column.rpartition(" of " + body)[0],
                          Cell(show(table[column][at], unit_of(column, run.dimension)),
                               repr(float(table[column][at])), column),
                          show(table[TIME][at], "s")])
     return Section("bands", "Shear bands",
                    "How far softening soil has yielded, and what it has dissipated.",
-                   [picture(table, lengths),
+                   [picture(run, lengths),
                     Rows(["body", "quantity", "largest", "at t ="], rows)])

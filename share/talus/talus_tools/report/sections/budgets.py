@@ -67,7 +67,8 @@ def impulses(run):
         result.append(("outflow", -run.outflow("momentum x", "kg m/s"),
                        "What soil that left took along."))
     obstacles = run.tables["obstacles"]
-    columns = [n for n in obstacles.names if n.endswith("impulse x [N s]")] if obstacles else []
+    columns = [f"{name} impulse x [N s]" for name in run.obstacle_names()]
+    columns = [column for column in columns if obstacles and column in obstacles]
     if columns:
         taken = sum(numpy.interp(time, obstacles["time [s]"], obstacles[n]) for n in columns)
         result.append(("obstacles", -taken, "What obstacles took: negative where they brake."))

@@ -10,17 +10,15 @@ from talus_tools.units import largest, scaled, show, unit_of
 
 HEAD = ["quantity", "largest mean over a row", "at t =", "largest running mean",
         "largest in any step", "mean over the run", "what it means"]
+FACES = ("Left", "Right", "Bottom", "Top", "Back", "Front")
 AXES = {"x": "Along the slope: drag; positive where the soil pushes along x.",
         "y": "Across the slope: negative presses down, positive lifts.",
         "z": "Sideways."}
 
 
-def names_of(table):
-    """Names of obstacles or faces, by their columns."""
-    end = " force x [N]"
-    kinds = (" friction", " least", " largest", " mean")
-    return [n[:-len(end)] for n in table.names
-            if n.endswith(end) and not n[:-len(end)].endswith(kinds)]
+def having_forces(table, names):
+    """Those obstacles or faces that have columns in the table."""
+    return [name for name in names if f"{name} force x [N]" in table.names]
 
 
 def has_running_means(table, name):
@@ -83,8 +81,8 @@ def rows_of(table, name, dimension):
 
 def contact(table, name):
     """When the soil arrives."""
-    column = [n for n in table.names if n.startswith(name + " contact area")]
-    touched = numpy.flatnonzero(table[column[0]] > 0) if column else []
+    column = f"{name} contact area"
+    touched = numpy.flatnonzero(table[column] > 0) if column in table else []
     if not len(touched):
         return f"{name}: the soil never touches it."
     return f"{name}: the soil touches it from t = {table['time [s]'][touched[0]]:.4g} s on."
@@ -103,8 +101,9 @@ def obstacles(run):
     if table is None:
         return None
     structures = structure_names(run).values()
-    ground = [name for name in names_of(table) if name not in structures]
-    parts = [part for name in names_of(table) if name in structures
+    names = having_forces(table, run.obstacle_names())
+    ground = [name for name in names if name not in structures]
+    parts = [part for name in names if name in structures
              for part in parts_of(run, table, name)]
     parts += [Folded(f"Forces on {name}, which is the ground", parts_of(run, table, name))
               for name in ground]
@@ -121,4 +120,5 @@ def faces(run):
         return None
     return Section("faces", "Forces on the faces of the mesh",
                    "What the soil does to the seabed and the walls at the edge of the mesh.",
-                   [part for name in names_of(table) for part in parts_of(run, table, name)])
+                   [part for name in having_forces(table, FACES)
+                    for part in parts_of(run, table, name)])

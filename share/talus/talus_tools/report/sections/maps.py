@@ -23,9 +23,9 @@ MEANINGS = {
     "maximum-bed-shear": ("Pa", "cividis", "Shear stress on the bed: what erodes it."),
     "arrival-time": ("s", "YlGnBu_r", "When the soil first is as thick as the name says."),
     "time-of-maximum": ("s", "YlGnBu_r", "When the largest value was reached."),
-    "final-thickness": ("m", "viridis", "The deposit at the last time."),
+    "final-thickness": ("m", "viridis", "At the last time, in the release area, too."),
     "thickness-at-start": ("m", "viridis", "Before anything moved."),
-    "final-mass": ("kg/m^2", "viridis", "Mass of the deposit per area."),
+    "final-mass": ("kg/m^2", "viridis", "Mass per area at the last time."),
     "erosion": ("m", "RdBu_r", "Thickness that a place lost; below zero, what it gained."),
 }
 GROUND = "ground"

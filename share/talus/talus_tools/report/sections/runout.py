@@ -83,7 +83,17 @@ def history(run, table, curves, where):
 def parts_of(run, table, curves, where, meanings):
     """Picture and table; without rows beyond the first the table only."""
     pictures = [history(run, table, curves, where)] if len(table) > 1 else []
-    return pictures + [summary(run, meanings, table)]
+    return pictures + [meanings_table(run, table, meanings)]
+
+
+def meanings_table(run, table, meanings):
+    """Rows of the table; speeds count from the start on, when there is no way yet."""
+    result = summary(run, meanings, table)
+    if table is not run.statistics:
+        speeds = {column: said for column, said in meanings.items() if "speed" in column}
+        whole = iter(summary(run, speeds, run.tables["runout"]).rows)
+        result.rows = [next(whole) if "speed" in row[1].column else row for row in result.rows]
+    return result
 
 
 def runout(run):

@@ -4,24 +4,22 @@
 import numpy
 
 from talus_tools.report.page import COLORS, Cell, Lines, Rows, Section, embed, subplots
+from talus_tools.report.places import station_names
 from talus_tools.units import show, unit_of
 
 TIME, THICKNESS = "time [s]", " thickness [m]"
 MOST = 6  # stations in one picture
 
 
-def columns_of(table):
-    """{station: {quantity with unit: column}}. Every station has a thickness, by which its
-    name is known; of two that fit a column the longer one is meant."""
-    names = [n[:-len(THICKNESS)] for n in table.names
-             if n.endswith(THICKNESS) and not n.endswith(" maximum" + THICKNESS)]
-    result = {name: {} for name in names}
-    for column in table.names:
-        fitting = [name for name in names if column.startswith(name + " ")]
-        if fitting:
-            name = max(fitting, key=len)
-            result[name][column[len(name) + 1:]] = column
-    return result
+def columns_of_stations(run):
+    """{station: {quantity with unit: column}}. The table has the same quantities of one station
+    after another, in the order of the parameters; a name alone may fit columns of two stations."""
+    table, names = run.tables["stations"], station_names(run)
+    n = (len(table.names) - 1) // max(len(names), 1)
+    blocks = {name: table.names[1 + n * i:1 + n * (i + 1)] for i, name in enumerate(names)}
+    return {name: {column[len(name) + 1:]: column for column in block}
+            for name, block in blocks.items()
+            if name + THICKNESS in block and all(c.startswith(name + " ") for c in block)}
 
 
 def histories(table, columns):
@@ -68,7 +66,7 @@ def rows_of(table, columns, dimension):
 def stations(run):
     """Where stations.csv is. Stations that no soil reached are told in one sentence."""
     table = run.tables["stations"]
-    columns = columns_of(table) if table else {}
+    columns = columns_of_stations(run) if table else {}
     if not columns:
         return None
     reached = {name: own for name, own in columns.items() if table[own[THICKNESS[1:]]].any()}
