@@ -6,6 +6,7 @@ Usage: emulator.py TALUS ROOT FOLDER [SUITE]
 
 import math
 import subprocess
+import types
 import unittest
 
 import numpy
@@ -13,8 +14,10 @@ import numpy
 from tools_case import ROOT, TALUS, Case, main, read_csv
 
 from talus_tools.errors import UserError
+from talus_tools.study.emulation import Emulation
 from talus_tools.study.emulator import Emulator, sobol_indices
 from talus_tools.study.design import design, shares_of
+from talus_tools.study.pile import PiledEmulator, pile_of
 from talus_tools.study.quantities import MapQuantity
 from talus_tools.study.settings import Settings
 from talus_tools.tables import read_table
@@ -162,6 +165,104 @@ class Emulators(EmulatorCase):
                            "subsection Emulator\nset Write = true\nend")
         self.assert_sentence(self.tool("talus-study", study, cwd=ROOT), "at least 8")
         self.assert_sentence(self.tool("talus-calibrate", study, cwd=ROOT), "observes nothing")
+
+
+class Piles(EmulatorCase):
+    """Quantities with the same value in many members: q = max(0, 3 x + y - c) of two uniform
+    numbers. P(q > a) = P(3 x + y > c + a) is 1 - (c + a - 1/2)/3 where 1 < c + a < 3."""
+
+    @staticmethod
+    def emulate(function, n, seed):
+        """Emulation of one quantity, function(x, y), without a study."""
+        import scipy.stats
+        emulation = Emulation.__new__(Emulation)
+        emulation.settings = types.SimpleNamespace(seed=seed, emulator_samples=20000)
+        emulation.shares = scipy.stats.qmc.LatinHypercube(2, seed=seed).random(n)
+        emulation.emulators = [emulation.fit(function(*emulation.shares.T))]
+        return emulation
+
+    def count_within(self, sign, n, c):
+        """Share of ten designs with P(q > a) within the stated interval, and the largest
+        error, at the pile and beyond it."""
+        within, errors = [], []
+        for seed in range(10):
+            emulation = self.emulate(lambda x, y: sign * numpy.maximum(0, 3 * x + y - c), n, seed)
+            self.assertIsInstance(emulation.emulators[0], PiledEmulator)
+            values, probability = emulation.exceedance(0, emulation.samples())
+            # Nothing lies beyond the pile, and the curve falls.
+            self.assertGreaterEqual((sign * values).min(), 0)
+            self.assertTrue((numpy.diff(values) >= 0).all())
+            self.assertTrue((numpy.diff(probability) <= 0).all())
+            low, high = emulation.interval(0, values, probability)
+            for distance in (0.0, 0.3):
+                exact = 1 - (c + distance - 0.5) / 3
+                if sign > 0:
+                    at = max(0, numpy.searchsorted(values, distance, "right") - 1)
+                else:
+                    exact = 1 - exact
+                    at = min(len(values) - 1, numpy.searchsorted(values, -distance))
+                within.append(low[at] <= exact <= high[at])
+                errors.append(abs(probability[at] - exact))
+        return numpy.mean(within), max(errors)
+
+    def test_probability(self):
+        """Closed form within the 90 % interval, with a pile at the smallest and at the largest
+        value, of many and of few hits (of which the values themselves are the distribution)."""
+        for sign, n, c, largest in ((1, 32, 2.6, 0.1), (-1, 16, 2.6, 0.15), (1, 10, 2.6, 0.2),
+                                    (1, 24, 1.4, 0.15)):
+            share, error = self.count_within(sign, n, c)
+            self.assertGreaterEqual(share, 0.9, (sign, n, c, error))
+            self.assertLess(error, largest, (sign, n, c))
+
+    def test_pile(self):
+        """Three equal values at an end are a pile; values in between and constants are not."""
+        for values, pile in (([0, 0, 0, 1, 2], 0), ([1, 5, 5, 5, 2], 5), ([0, 0, 1, 2, 3], None),
+                             ([0, 1, 1, 1, 2], None), ([4, 4, 4, 4], None)):
+            self.assertEqual(pile_of(numpy.array(values, dtype=float)), pile)
+
+    def test_study(self):
+        """The terminal and the tables of a study with a pile, and a curve without negative
+        values; without a pile the columns of the emulator alone."""
+        pretender = self.pretender()
+        pretender.write_text(PRETENDER.replace("$s/100 + 3*$b/100",
+                                               "($s > 2000) * ($s - 1900) / 100"))
+        study = self.write("hit", pretender, 20, "subsection Emulator\nset Write = true\nend")
+        said = self.run_tool("talus-study", study)
+        self.assertIn("10 of 20 members have the value 0.", said)
+        rows = read_csv(study.with_name("hit-output") / "emulator-exceedance.csv")
+        first = {key: float(text) for key, text in rows[0].items() if key != "quantity"}
+        self.assertEqual(first["value"], 0)
+        self.assertAlmostEqual(first["probability of exceedance [-]"], 0.5, delta=0.05)
+        self.assertLess(first["5 % [-]"], 0.5)
+        self.assertGreater(first["95 % [-]"], 0.5)
+        self.assertGreaterEqual(min(float(row["value"]) for row in rows), 0)
+        # The seabed has no influence.
+        indices = {row["parameter"]: float(row["total index [-]"]) for row in
+                   read_csv(study.with_name("hit-output") / "sobol.csv")}
+        self.assertLess(indices["seabed"], 0.05)
+        self.assertGreater(indices["strength"], 0.9)
+
+    def test_moving(self):
+        """Members that still moved are named with their results and on the terminal."""
+        pretender = self.pretender()
+        pretender.write_text(PRETENDER.replace(
+            "front x [m]\\n0,9\\n1,%s\\n' \"$f\"",
+            "front x [m],at rest\\n0,9,1\\n1,%s,%d\\n' \"$f\" $(( ${f%.*} > 60 ? 0 : 1 ))"))
+        study = self.write("moving", pretender, 16,
+                           "subsection Emulator\nset Write = true\nend")
+        said = self.run_tool("talus-study", study)
+        folder = study.with_name("moving-output")
+        moving = [row["member"] for row in read_csv(folder / "study.csv")
+                  if float(row["front [m]"]) >= 61]
+        self.assertGreater(len(moving), 1)
+        self.assertIn(f"(members {', '.join(moving)})", said)
+        self.assertIn("lower bounds", said)
+        for name in ("exceedance", "emulator"):
+            rows = read_csv(folder / f"{name}.csv")
+            self.assertEqual(sorted(row["member"] for row in rows
+                                    if row["moving at the end"] == "1"), sorted(moving))
+            for row in rows:
+                self.assertEqual(row["moving at the end"] == "1", float(row["value"]) >= 61)
 
 
 class Calibration(EmulatorCase):

@@ -10,6 +10,10 @@ import numpy
 
 from tools_case import Case, main, read_csv
 
+from talus_tools.errors import UserError
+from talus_tools.pipe import beam
+from talus_tools.pipe.settings import Settings
+
 # Steel pipe of 0.6 m; the stiffnesses of the closed forms are given explicitly.
 PIPE = {"Pipe/Outer diameter": 0.6, "Pipe/Wall thickness": 0.02}
 EI, K, Q, B = 1.2e8, 2e5, 2e4, 100.0
@@ -157,6 +161,99 @@ class Beams(PipeCase):
         self.assert_near(slope[(s[:-1] > 110) & (s[:-1] < 140)].mean(), 8e3, 1e-3)
 
 
+class Cables(PipeCase):
+    """A pipe that starts straight and without tension, in a slide of 2.5 km: a cable."""
+    LENGTH, LOADED, RESISTANCE = 4000.0, 2500.0, 4e3
+    SOIL = {"Length": LENGTH, "Lateral springs/Stiffness": 1e5,
+            "Lateral springs/Ultimate resistance": RESISTANCE, "Load/Source": "line",
+            "Load/Line": "cable", "Load/Lateral resistance in the slide": 0}
+    AREA, SECOND = math.pi * 0.02 * 0.58, math.pi / 64 * (0.6**4 - 0.56**4)
+
+    def slide_of(self, q):
+        """A run whose slide loads the middle with q, N/m."""
+        ends = [(self.LENGTH + sign * self.LOADED) / 2 for sign in (-1, 1)]
+        return self.run_folder(f"cable-{q:g}", lines=(
+            "line,distance [m],maximum impact pressure [Pa]\n"
+            + "".join(f"cable,{s!r},{q / 0.6!r}\n" for s in ends)))
+
+    def axial_force(self, q):
+        """Axial force H, N, of a cable between fixed ends, on soil that yields outside of the
+        slide: the mean of V^2/(2 H^2) is the strain H/EA, with the transverse force V."""
+        edge = q * self.LOADED / 2
+        end = edge - self.RESISTANCE * (self.LENGTH - self.LOADED) / 2
+        self.assertGreater(end, 0)  # soil alone does not hold the pipe
+        squares = 2 * (edge**2 * self.LOADED / 2 / 3
+                       + (edge**3 - end**3) / (3 * self.RESISTANCE))
+        return (2.07e11 * self.AREA * squares / (2 * self.LENGTH)) ** (1 / 3)
+
+    def test_cable(self):
+        """Closed form of axial force, deflection in the middle and utilisation, with elements of
+        5 m and of a sixteenth of the length of bending; the soil changes the 35 MN of a cable
+        that is held at the edges of the slide to 46 MN."""
+        self.assert_near(self.axial_force(6000), 45.82e6, 1e-3)
+        for q in (6e3, 2e5):
+            force, run = self.axial_force(q), self.slide_of(q)
+            found = {}
+            for size in ("5", ""):
+                along, history = self.respond(run, f"cable-{q:g}", self.SOIL | {"Element size": size})
+                axial, s = along["axial force [N]"], along["s [m]"]
+                self.assert_near(axial.min(), axial.max(), 1e-6)
+                self.assert_near(axial[0], force, 5e-3)
+                middle = along["deflection [m]"][abs(s - self.LENGTH / 2).argmin()]
+                edge = q * self.LOADED / 2
+                outside = (self.LENGTH - self.LOADED) / 2
+                self.assert_near(middle, (edge * self.LOADED / 4 + edge * outside
+                                          - self.RESISTANCE * outside**2 / 2) / force, 5e-3)
+                # At a fixed end the pipe bends over the length sqrt(EI/H).
+                end = edge - self.RESISTANCE * outside
+                moment = end * math.sqrt(2.07e11 * self.SECOND / force)
+                if not size or q < 1e4:
+                    stress = force / self.AREA + moment * 0.3 / self.SECOND
+                    self.assert_near(history["largest utilisation [-]"][-1], stress / 4.5e8, 2e-2)
+                self.assertIn("exceeds the yield stress", self.printed)
+                found[size] = (axial[0], middle)
+            for one, other in zip(found["5"], found[""]):
+                self.assert_near(one, other, 1e-3)
+            self.assertGreater(len(s), 6000)
+
+    def test_one_step(self):
+        """The whole load at once, from the straight pipe, without smaller parts: the same
+        balance. Without a line search none is found, nor for a rope on stiff soil, nor for free
+        ends."""
+        for q, change in ((6e3, {}), (2e5, {}), (6e3, {
+                "Ends": "free", "Axial springs/Stiffness": 1e6,
+                "Axial springs/Ultimate resistance": 1e5,
+                "Lateral springs/Ultimate resistance": 1e5}), (2e3, {
+                "Pipe/Outer diameter": 0.05, "Pipe/Wall thickness": 0.001,
+                "Lateral springs/Stiffness": 1e9})):
+            path = self.parameters("step", self.SOIL | {"Element size": 2} | change)
+            one = beam.Beam(Settings(path), lambda s: numpy.where(
+                abs(s - self.LENGTH / 2) < self.LOADED / 2, 0, 1))
+            load = numpy.where(one.resistance == 0, q, 0.0)
+            state = one.balance(beam.State(len(one.s)), load)
+            axial = one.axial_force(state.displacement)
+            if not change:
+                self.assert_near(axial.mean(), self.axial_force(q), 5e-3)
+                continue
+            # The soil holds the whole load.
+            deflection = one.bent(state.displacement) @ one.shape + state.displacement[:-1, 1:2]
+            held, _, _ = beam.spring(one.settings.lateral, one.resistance, deflection, 0)
+            self.assert_near((held @ one.weights).sum(), q * self.LOADED, 1e-6)
+            self.assertLess(abs(deflection).max(), self.LENGTH / 4)
+
+    def test_friction(self):
+        """Friction along the pipe, 1500 N/m, changes the axial force by at most friction times
+        half the length, and the mean by less than 1 %, of second order in the change. Where the
+        pipe slides the force changes by the friction per length."""
+        along, _ = self.respond(self.slide_of(6e3), "friction", self.SOIL | {
+            "Axial springs/Stiffness": 1e6, "Axial springs/Ultimate resistance": 1.5e3})
+        axial, s = along["axial force [N]"], along["s [m]"]
+        self.assert_near(axial.mean(), self.axial_force(6e3), 1e-2)
+        self.assertLess(numpy.ptp(axial), 1.5e3 * self.LENGTH / 2)
+        slope = abs(numpy.diff(axial) / numpy.diff(s))[(s[:-1] > 20) & (s[:-1] < 280)]
+        self.assert_near(slope.mean(), 1.5e3, 1e-3)
+
+
 class Loads(PipeCase):
     def test_stations(self):
         """Pressures at stations, linear in between, in time; the same load as an obstacle's
@@ -216,10 +313,33 @@ class Refused(PipeCase):
         self.refuse(self.force("endless", 0.0, math.nan), LINEAR, "not a number")
 
     def test_no_balance(self):
-        """A pipe that neither soil nor tension holds is no result."""
+        """Free ends hold nothing: without balance if the load, Q B, is larger than the
+        resistance of the soil over 400 m."""
         run = self.force("weak", 0.0, Q)
-        self.refuse(run, LINEAR | {"Ends": "free", "Lateral springs/Ultimate resistance": 1e3},
-                    "No balance was found beyond", "N/m")
+        free = LINEAR | {"Ends": "free", "Lateral springs/Ultimate resistance": 1e3}
+        self.refuse(run, free, "No balance exists", "1.999e+06 N", "4e+05 N", "'Ends = free'")
+        self.refuse(run, free | {"Lateral springs/Ultimate resistance": Q * B / 400 * 0.99},
+                    "No balance exists")
+        # The slide covers the pipe, so that all springs yield together.
+        whole = {"Load/Width": 400, "Lateral springs/Ultimate resistance": Q * 1.001}
+        self.respond(run, "held", free | whole)
+
+    def test_newton_gives_up(self):
+        """Without a proof that nothing holds the pipe the message does not say so."""
+        path = self.parameters("gives-up", LINEAR | {
+            "Pipe/Axial stiffness": 7e9, "Lateral springs/Ultimate resistance": 1e3})
+        one = beam.Beam(Settings(path), numpy.ones_like)
+        load = numpy.full_like(one.s_gauss, Q)
+        most, beam.MAX_ITERATIONS = beam.MAX_ITERATIONS, 1
+        try:
+            with self.assertRaises(UserError) as caught:
+                one.advance(beam.State(len(one.s)), 0 * load, load)
+        finally:
+            beam.MAX_ITERATIONS = most
+        self.assertIn("Newton's method found no balance beyond 0 %", str(caught.exception))
+        self.assertIn("is not known", str(caught.exception))
+        state = one.advance(beam.State(len(one.s)), 0 * load, load)
+        self.assertGreater(one.axial_force(state.displacement).min(), 0)
 
     def test_remarks(self):
         """What a result does not cover is said."""

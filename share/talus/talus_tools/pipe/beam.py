@@ -5,6 +5,11 @@ Unknowns at each node: axial displacement u [m], deflection w [m], rotation w' [
 linear in w'' (Bernoulli), the axial strain is u' + w'^2/2 (von Karman). Deflections are cubic and
 axial displacements linear in an element. The axial force is constant in an element: from the mean
 of w'^2/2, since the sum of a linear u' and a quartic w'^2 would lock.
+
+A straight pipe without tension has no stiffness but EI, and the first correction of Newton's
+method for a slide of kilometres is a thousand times the deflection. A line search therefore
+shortens each correction: the state in balance minimizes the energy of pipe, springs and load, and
+the residual times the correction is the slope of the energy along the correction.
 """
 
 import numpy
@@ -15,8 +20,12 @@ from talus_tools.errors import UserError
 N_GAUSS = 4  # integrate products of two cubic shape functions exactly
 BAND = 5  # half the bandwidth of two nodes with three unknowns each
 TOLERANCE = 1e-9  # of the residual, over the norm of loads and internal forces
-MAX_ITERATIONS = 30
-SMALLEST_PART = 2.0**-12  # of an increment of the load
+LARGEST_ERROR = 1e-2  # of the residual, over the norm of the largest load
+MAX_ITERATIONS = 100
+SEARCHES = 40  # tries of a line search
+SMALLER_SLOPE = 0.5  # slope of the energy after a line search, over the slope before
+SMALLEST_PART = 2.0**-6  # of an increment of the load
+EPSILON = numpy.finfo(float).eps
 
 
 class State:
@@ -60,6 +69,7 @@ class Beam:
         self.linear = numpy.stack([1 - self.xi, self.xi])
         self.bending, self.geometric = self.matrices()
         self.free = self.free_unknowns()
+        self.largest_load = 0.0  # norm over the elements of all loads so far, N
         # Unknowns of an element in the order of the nodes: rows of w and rotation, of u.
         self.w_rows, self.u_rows = numpy.array([1, 2, 4, 5]), numpy.array([0, 3])
 
@@ -88,35 +98,52 @@ class Beam:
             free[0, 0] = False  # nothing else would keep the pipe from moving along its axis
         return free
 
+    @staticmethod
+    def bent(displacement):
+        """Deflections and rotations of both nodes (elements, 4), without the deflection of the
+        first node, which neither bends nor stretches the element. Short elements far from the
+        straight pipe would lose digits with the whole deflection."""
+        w = numpy.hstack([displacement[:-1, 1:], displacement[1:, 1:]])
+        w[:, [0, 2]] -= displacement[:-1, 1:2]
+        return w
+
     def axial_force(self, displacement):
         """Axial force of each element, N, with tension positive."""
-        w = numpy.hstack([displacement[:-1, 1:], displacement[1:, 1:]])
+        w = self.bent(displacement)
         stretch = (numpy.diff(displacement[:, 0])
                    + 0.5 * numpy.einsum("ei,ij,ej->e", w, self.geometric, w)) / self.h
         return self.pipe.tension + self.pipe.axial_stiffness * stretch
 
-    def elements(self, displacement, state, load):
+    def elements(self, displacement, state, load, stiff=False):
         """End forces (elements, 6), their tangents (elements, 6, 6), and the slips of the
         springs. The end forces are those that an element needs to be in balance with its
-        springs and with `load`, N/m, at its Gauss points."""
+        springs and with `load`, N/m, at its Gauss points. `stiff`: tangents without the yielding
+        of springs and without the softening by compression, for which all corrections decrease
+        the energy."""
         w = numpy.hstack([displacement[:-1, 1:], displacement[1:, 1:]])
         u = numpy.stack([displacement[:-1, 0], displacement[1:, 0]], axis=1)
         axial = self.axial_force(displacement)
         p, p_slope, lateral_slip = spring(self.settings.lateral, self.resistance, w @ self.shape,
                                           state.lateral_slip)
         t, t_slope, axial_slip = spring(self.settings.axial, 1, u @ self.linear, state.axial_slip)
-        turned = w @ self.geometric  # derivative of the integral of w'^2/2
+        bent = self.bent(displacement)
+        turned = bent @ self.geometric  # derivative of the integral of w'^2/2
         pull = self.pipe.axial_stiffness / self.h
         force = numpy.zeros((len(w), 6))
-        force[:, self.w_rows] = (self.pipe.bending_stiffness * (w @ self.bending)
+        force[:, self.w_rows] = (self.pipe.bending_stiffness * (bent @ self.bending)
                                  + axial[:, None] * turned
                                  + numpy.einsum("eg,ig,g->ei", p - load, self.shape,
                                                 self.weights))
         force[:, self.u_rows] = (numpy.outer(axial, [-1, 1])
                                  + numpy.einsum("eg,ig,g->ei", t, self.linear, self.weights))
         tangent = numpy.zeros((len(w), 6, 6))
+        hardens = axial
+        if stiff:
+            hardens = numpy.maximum(axial, 0)
+            p_slope = self.resistance * self.settings.lateral.stiffness
+            t_slope = numpy.full_like(t, self.settings.axial.stiffness)
         tangent[:, self.w_rows[:, None], self.w_rows] = (
-            self.pipe.bending_stiffness * self.bending + axial[:, None, None] * self.geometric
+            self.pipe.bending_stiffness * self.bending + hardens[:, None, None] * self.geometric
             + pull * turned[:, :, None] * turned[:, None, :]
             + numpy.einsum("eg,ig,jg,g->eij", p_slope, self.shape, self.shape, self.weights))
         tangent[:, self.u_rows[:, None], self.u_rows] = (
@@ -127,13 +154,18 @@ class Beam:
         tangent[:, self.u_rows[:, None], self.w_rows] = coupling.transpose(0, 2, 1)
         return force, tangent, lateral_slip, axial_slip
 
-    def residual(self, force):
-        """Sums of the end forces at the free unknowns, flat, and their scale."""
+    def residual(self, force, displacement):
+        """Sums of the end forces at the free unknowns, flat, and the norm that counts as zero:
+        a small part of the end forces, or the rounding of the deflection times the stiffness,
+        but never more than LARGEST_ERROR of the largest load."""
         total = numpy.zeros((len(self.s), 3))
         total[:-1] += force[:, :3]
         total[1:] += force[:, 3:]
-        scale = numpy.linalg.norm(force, axis=0).max()
-        return numpy.where(self.free, total, 0).ravel(), scale
+        rounding = (EPSILON * 12 * self.pipe.bending_stiffness / self.h**3
+                    * numpy.linalg.norm(displacement[:, 1]))
+        zero = max(TOLERANCE * numpy.linalg.norm(force, axis=0).max(), rounding)
+        return (numpy.where(self.free, total, 0).ravel(),
+                min(zero, LARGEST_ERROR * self.largest_load))
 
     def correction(self, tangent, residual):
         """Solve the linear system; held unknowns stay."""
@@ -142,40 +174,86 @@ class Beam:
         first = 3 * numpy.arange(len(tangent))
         for i in range(6):
             for j in range(6):
-                numpy.add.at(matrix, (BAND + i - j, first + j), tangent[:, i, j])
+                matrix[BAND + i - j, first + j] += tangent[:, i, j]
         held = numpy.flatnonzero(~self.free.ravel())
         for unknown in held:
             for other in range(max(0, unknown - BAND), min(n, unknown + BAND + 1)):
                 matrix[BAND + unknown - other, other] = other == unknown
                 matrix[BAND + other - unknown, unknown] = other == unknown
         try:
-            return solve_banded((BAND, BAND), matrix, -residual)
-        except numpy.linalg.LinAlgError as error:
-            raise NoBalance from error
+            return solve_banded((BAND, BAND), matrix, -residual).reshape(-1, 3)
+        except numpy.linalg.LinAlgError:
+            return numpy.full((len(self.s), 3), numpy.nan)
+
+    def downhill(self, displacement, state, load):
+        """Correction by Newton's method along which the energy decreases, and the slope of the
+        energy along the correction. A tangent that has no such correction is replaced by the
+        stiff one."""
+        for stiff in (False, True):
+            force, tangent, _, _ = self.elements(displacement, state, load, stiff)
+            residual, _ = self.residual(force, displacement)
+            step = self.correction(tangent, residual)
+            slope = residual @ step.ravel()
+            if slope < 0:
+                return step, slope
+        raise NoBalance
+
+    def search(self, displacement, step, slope, state, load):
+        """Share of `step` after which the energy has decreased and its slope is small. Without
+        a rise of the energy the whole step is taken."""
+        share, low, high = 1.0, 0.0, None
+        for _ in range(SEARCHES):
+            moved = displacement + share * step
+            residual, _ = self.residual(self.elements(moved, state, load)[0], moved)
+            there = residual @ step.ravel()
+            if (high is None and there < 0) or abs(there) <= SMALLER_SLOPE * abs(slope):
+                return share
+            low, high = (share, high) if there < 0 else (low, share)
+            # Near zero the slope is linear; far away a cubic polynomial of the share.
+            share = ((low + high) / 2 if low > 0 or not numpy.isfinite(there)
+                     else high * max(0.1, slope / (slope - there)))
+        raise NoBalance
 
     def balance(self, state, load):
-        """State in balance with a load per length, N/m, at the Gauss points, by Newton's
-        method from `state`."""
+        """State in balance with a load per length, N/m, at the Gauss points, by Newton's method
+        with line search from `state`."""
+        self.largest_load = max(self.largest_load,
+                                numpy.linalg.norm((load * self.weights).sum(axis=1)))
         result = State(len(self.s))
-        displacement = state.displacement.copy()
-        previous = numpy.inf
+        displacement = state.displacement
         for _ in range(MAX_ITERATIONS):
-            force, tangent, result.lateral_slip, result.axial_slip = self.elements(
+            force, _, result.lateral_slip, result.axial_slip = self.elements(
                 displacement, state, load)
-            residual, scale = self.residual(force)
-            size = numpy.linalg.norm(residual)
-            if not numpy.isfinite(size) or size > 1e6 * max(previous, 1e-30):
-                break
-            if size <= TOLERANCE * scale:
+            residual, zero = self.residual(force, displacement)
+            if numpy.linalg.norm(residual) <= zero:
                 result.displacement = displacement
                 return result
-            previous = size
-            displacement = displacement + self.correction(tangent, residual).reshape(-1, 3)
+            step, slope = self.downhill(displacement, state, load)
+            displacement = displacement + self.search(displacement, step, slope, state,
+                                                      load) * step
         raise NoBalance
+
+    def check_hold(self, load):
+        """Refuse a load, N/m, for which no balance exists: at free ends nothing but the lateral
+        springs can hold the pipe, whatever the tension. Held ends can hold any load, since the
+        stretched elastic pipe has no largest tension."""
+        springs = self.settings.lateral
+        if self.settings.ends != "free" or (springs.stiffness > 0
+                                            and numpy.isinf(springs.resistance)):
+            return
+        limit = springs.resistance * self.resistance if springs.stiffness > 0 else 0 * load
+        total, held = abs((load @ self.weights).sum()), (limit @ self.weights).sum()
+        if total > held:
+            raise UserError(
+                f"No balance exists: the load of {total:.4g} N in sum is larger than the ultimate "
+                f"resistance of all lateral springs, {held:.4g} N, and 'Ends = free' hold "
+                "nothing. Change 'Ends', 'Length', 'Lateral springs/Ultimate resistance' or "
+                "'Load/Lateral resistance in the slide'.")
 
     def advance(self, state, load, next_load):
         """State after the load has changed to `next_load`, in as many parts as Newton's method
         needs."""
+        self.check_hold(next_load)
         done, part = 0.0, 1.0
         while done < 1:
             part = min(part, 1 - done)
@@ -185,10 +263,11 @@ class Beam:
                 part /= 2
                 if part < SMALLEST_PART:
                     raise UserError(
-                        f"No balance was found beyond {100 * done:.3g} % of the change to a load "
-                        f"of {numpy.abs(next_load).max():.4g} N/m: neither the springs ('Lateral "
-                        "springs/Ultimate resistance') nor the stretched pipe ('Ends', 'Axial "
-                        "springs') hold the pipe.") from error
+                        f"Newton's method found no balance beyond {100 * done:.3g} % of the "
+                        f"change to a load of {numpy.abs(next_load).max():.4g} N/m. Whether a "
+                        "balance exists is not known. A pipe that soil and tension hardly hold "
+                        "turns by more than the moderate rotations of the model: see 'Ends', "
+                        "'Axial springs' and 'Lateral springs/Ultimate resistance'.") from error
                 continue
             done += part
             part *= 2

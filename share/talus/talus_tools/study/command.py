@@ -82,10 +82,11 @@ def write_results(settings, members):
     for member, reason in failed:
         print(f"{member.name} failed: {reason}")
     n_done = len(results.finished())
-    moving = results.moving.count("1")
+    moving = [m.number for m, flag in zip(members, results.moving) if flag == "1"]
     if moving:
-        print(f"{moving} of the finished members still moved at the end, so that their runout is "
-              f"not final; see the column '{MOVING}'.")
+        print(f"{len(moving)} of the finished members still moved at the end (members "
+              f"{', '.join(map(str, moving))}), so that their runout is not final and "
+              f"probabilities are lower bounds for quantities that grow; see the column '{MOVING}'.")
     print(f"{n_done} of {len(members)} members have finished; see "
           f"{os.path.join(settings.folder, 'study.csv')}.")
     return 1 if failed else 0 if n_done == len(members) else UNFINISHED

@@ -23,6 +23,20 @@ def rank_correlation(one, other):
     return f"rank correlation {scipy.stats.spearmanr(one, other).statistic:.2f}"
 
 
+def mark_moving(axes, results, index):
+    """Circles around the members that still moved at the end, by their number. Return whether
+    there are any."""
+    values, shares = results.exceedance(index)
+    moving = [(member.number, value) for member, value, flag in zip(
+        results.members, results.values[:, index], results.moving) if flag == "1"]
+    for number, value in moving:
+        at = shares[numpy.searchsorted(values, value)]
+        axes.plot(value, at, "o", mfc="none", color=COLORS[1],
+                  label="still moving: lower bound" if number == moving[0][0] else None)
+        axes.annotate(str(number), (value, at), (2, 2), textcoords="offset points", fontsize=6)
+    return bool(moving)
+
+
 def overview(results):
     """Per quantity its exceedance curve, and its values over each varied parameter."""
     settings = results.settings
@@ -36,6 +50,8 @@ def overview(results):
         values, share = results.exceedance(q)
         axes[0].step(values, share, where="pre", color=BLUE)
         axes[0].plot(values, share, ".", color=BLUE)
+        if mark_moving(axes[0], results, q):
+            axes[0].legend(fontsize=7)
         axes[0].set(xlabel=quantity.label(), ylabel="share of members at or above",
                     ylim=(0, 1.05))
         for v, varied in enumerate(settings.varied):
@@ -72,9 +88,12 @@ def emulator(results, emulation, sobol, exceedance):
         axes[1].set(yticks=places, yticklabels=[one.name for one in settings.varied],
                     xlabel="share of the variance", xlim=(0, 1.05))
         axes[1].legend(fontsize=7)
-        axes[2].plot(*exceedance[q], color=BLUE, label="emulator")
+        curve, probability, low, high = exceedance[q]
+        axes[2].fill_between(curve, low, high, color=BLUE, alpha=0.2, lw=0, label="90 %")
+        axes[2].plot(curve, probability, color=BLUE, label="emulator")
         values, shares = results.exceedance(q)
         axes[2].step(values, shares, where="pre", color="0.5", lw=0.8, label="members")
+        mark_moving(axes[2], results, q)
         axes[2].set(xlabel=quantity.label(), ylabel="probability of exceedance", ylim=(0, 1.05))
         axes[2].legend(fontsize=7)
     figure.suptitle(f"{settings.title or settings.case}: emulator of {len(emulation.values)} "

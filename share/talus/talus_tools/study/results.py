@@ -10,6 +10,7 @@ import numpy
 from talus_tools.errors import UserError
 from talus_tools.esri import Grid, read_grid, write_grid
 from talus_tools.study.member import FINISHED
+from talus_tools.study.settings import MEMBER, MOVING
 from talus_tools.tables import header, read_table
 
 
@@ -53,6 +54,13 @@ class Results:
         return values, 1 - numpy.searchsorted(values, values) / n if n else values
 
 
+    def ranked(self, index):
+        """(number, moving) of the finished members in the order of exceedance()."""
+        order = numpy.argsort(self.values[:, index], kind="stable")  # NaN last
+        return [(self.members[i].number, self.moving[i]) for i in order
+                if numpy.isfinite(self.values[i, index])]
+
+
 def write_csv(path, rows):
     """At once or not at all."""
     with open(path + ".part", "w", newline="", encoding="utf-8") as stream:
@@ -74,10 +82,10 @@ def write_tables(results):
                      *map(cell, results.values[i]), results.moving[i], member.hash[:12],
                      reason])
     write_csv(os.path.join(settings.folder, "study.csv"), rows)
-    rows = [["quantity", "value", "share of members at or above [-]"]]
+    rows = [["quantity", "value", "share of members at or above [-]", MEMBER, MOVING]]
     for i, quantity in enumerate(settings.quantities):
-        rows += [[quantity.label(), repr(float(value)), repr(float(share))]
-                 for value, share in zip(*results.exceedance(i))]
+        rows += [[quantity.label(), repr(float(value)), repr(float(share)), *who]
+                 for value, share, who in zip(*results.exceedance(i), results.ranked(i))]
     write_csv(os.path.join(settings.folder, "exceedance.csv"), rows)
 
 
