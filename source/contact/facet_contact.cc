@@ -159,6 +159,8 @@ namespace talus
 
 
 
+  // From the places at the start, obstacles have moved over cells in between,
+  // which Facets::update() does not cut again.
   /// Give the impulses of a checkpoint to the facets, as soon as facets exist.
   template <int dim>
   void
@@ -169,7 +171,7 @@ namespace talus
     if (obstacles_.move())
       {
         obstacles_.locate();
-        facets_.update(state.grid, obstacles_);
+        facets_.prepare(state.grid, obstacles_);
         if (keeps_slip())
           slip_.update(places_of_facets());
       }

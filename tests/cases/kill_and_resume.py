@@ -289,6 +289,14 @@ class SlideMovesObstacle(KillAndResume):
         self.assertGreater(last["pillar spring slip x [m]"], 1e-3)
         self.assertGreater(abs(last["pillar rotation [rad]"]), 1e-4)
 
+    def test_resumed_where_the_pillar_has_left_its_first_cells(self):
+        self.make_reference()
+        once = ["Checkpoint/Step interval=1040", "Checkpoint/At the end=false"]
+        self.assert_ends(self.run_talus("run", once))
+        self.assertEqual(self.newest("run"), ["0000001040"])
+        self.assert_ends(self.run_talus("run", once, ["--resume"]))
+        self.assert_as_undisturbed("run")
+
 
 class SlideOnSofteningSeabed(KillAndResume):
     """A seabed that softens by slip under a mesh that changes: places without a
