@@ -318,8 +318,8 @@ namespace talus
       n_on_ranks <= maximum_points_,
       ExcPoint(
         text("Splitting ",
-             marked_.size(),
-             " points, the first of them point ",
+             counted(marked_.size(), "point"),
+             ", the first of them point ",
              points.data(points.id)[first],
              " at (",
              load_place(points, points.position, first),

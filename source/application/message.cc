@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/application/message.h>
+#include <talus/base/did_you_mean.h>
 
 #include <deal.II/base/exceptions.h>
+#include <deal.II/base/parameter_acceptor.h>
+#include <deal.II/base/utilities.h>
 
 #include <boost/program_options/errors.hpp>
 
@@ -89,6 +92,24 @@ namespace talus
 
 
 
+    /// Return a question for the entry or section most similar to @p name,
+    /// among the lines of all parameters that begin with @p keyword.
+    std::string
+    similar(const std::string &name, const std::string &keyword)
+    {
+      std::stringstream all;
+      dealii::ParameterAcceptor::prm.print_parameters(
+        all, dealii::ParameterHandler::ShortText);
+      std::vector<std::string> names;
+      for (std::string line; std::getline(all, line);)
+        if (line = dealii::Utilities::trim(line); line.rfind(keyword, 0) == 0)
+          names.push_back(dealii::Utilities::trim(
+            line.substr(keyword.size(), line.find('=') - keyword.size())));
+      return did_you_mean(name, names);
+    }
+
+
+
     /// Rewrite an @p error of the parameter parser as a sentence that begins
     /// with @p place and says what to do. Unknown messages, for example of a
     /// new version of deal.II, pass unchanged.
@@ -105,19 +126,18 @@ namespace talus
         "The entry value (?:(.*) )?for the entry "
         "named (.*) does not match the given "
         "pattern: (.*)");
+      static const char *const listed =
+        " `talus --document` lists all sections and parameters. Sections of "
+        "bodies and materials are named in Bodies/Names and Materials/Names.";
       static const std::regex bad_line("The line <(.*)> could not be parsed.*");
 
       std::smatch part;
       if (std::regex_match(error, part, unknown_entry))
         return place + "there is no parameter '" + part[1].str() +
-               "' in this section; `talus --document` lists all parameters. "
-               "Sections of bodies and materials are named in Bodies/Names and "
-               "Materials/Names.";
+               "' in this section." + similar(part[1], "set ") + listed;
       if (std::regex_match(error, part, unknown_section))
-        return place + "there is no section '" + part[1].str() +
-               "' here; `talus --document` lists all sections. Sections of "
-               "bodies and materials are named in Bodies/Names and "
-               "Materials/Names.";
+        return place + "there is no section '" + part[1].str() + "' here." +
+               similar(part[1], "subsection ") + listed;
       if (std::regex_match(error, part, bad_value))
         return place + "'" + part[2].str() + "' is '" + part[1].str() +
                "', where " + expected(part[3]) +

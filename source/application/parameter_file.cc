@@ -401,7 +401,15 @@ namespace talus
   void
   ParameterFile::parse() const
   {
-    parse_into(ParameterAcceptor::prm, /*skip_undefined=*/false);
+    try
+      {
+        parse_into(ParameterAcceptor::prm, /*skip_undefined=*/false);
+      }
+    catch (const std::exception &exception)
+      {
+        // Reworded while the parameters with similar names are declared.
+        AssertThrow(false, ExcUser(message(exception)));
+      }
     check_has_names(ParameterAcceptor::prm);
     check_sizes(ParameterAcceptor::prm);
   }

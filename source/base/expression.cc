@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/did_you_mean.h>
 #include <talus/base/errors.h>
 #include <talus/base/expression.h>
 
@@ -216,11 +217,12 @@ namespace talus
   /// Expressions are parsed, and thereby checked, at construction and not at
   /// the first evaluation, perhaps hours later in the middle of a step.
   template <int dim>
-  Expression<dim>::Expression(const std::string &name,
-                              const std::string &expressions,
-                              const unsigned int n_components,
-                              const Constants   &constants,
-                              const std::string &variables)
+  Expression<dim>::Expression(const std::string              &name,
+                              const std::string              &expressions,
+                              const unsigned int              n_components,
+                              const Constants                &constants,
+                              const std::string              &variables,
+                              const std::vector<std::string> &other_names)
     : name_(name)
     , expressions_(expressions)
     , variables_(variables)
@@ -241,20 +243,35 @@ namespace talus
                          expressions,
                          known,
                          /*time_dependent=*/true);
-    std::string known_names;
-    for (const std::string &variable : names)
-      if (variable.rfind("unused", 0) != 0)
-        known_names += variable + ", ";
     const std::string error = parse_error(function_);
-    AssertThrow(error.empty(),
+    if (error.empty())
+      return;
+    std::vector<std::string> list;
+    std::string              expected;
+    for (const auto *const some : {&names, &other_names})
+      for (const std::string &known_name : *some)
+        if (known_name.rfind("unused", 0) != 0 &&
+            std::find(list.begin(), list.end(), known_name) == list.end())
+          {
+            list.push_back(known_name);
+            expected += known_name + ", ";
+          }
+    for (const auto &constant : known)
+      list.push_back(constant.first);
+    static const std::regex quoted(".*\"(.*)\".*");
+    std::smatch             word;
+    std::regex_match(error, word, quoted);
+    AssertThrow(false,
                 ExcUser(text(name,
                              " = '",
                              expressions,
                              "' cannot be understood: ",
                              error,
                              " Expected an expression in ",
-                             known_names,
-                             "pi and the names of 'Constants'.")));
+                             expected,
+                             "pi and the names of 'Constants'.",
+                             did_you_mean(word.size() > 1 ? word[1].str() : "",
+                                          list))));
   }
 
 

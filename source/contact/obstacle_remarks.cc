@@ -11,6 +11,21 @@ namespace talus
 
   namespace
   {
+    // No interface of soil has this coefficient of friction: whoever gives it
+    // wants the soil to shear above the surface.
+    constexpr double rough = 2.;
+
+
+
+    template <int dim>
+    std::string
+    subject(const Obstacle<dim> &obstacle)
+    {
+      return "obstacle '" + obstacle.name() + "'";
+    }
+
+
+
     template <int dim>
     bool
     has_end(const Box<dim> &box)
@@ -73,46 +88,45 @@ namespace talus
 
 
   template <int dim>
-  std::vector<std::string>
+  std::vector<Remark>
   notes_on_hidden_obstacles(const Obstacles<dim> &obstacles,
                             const Box<dim>       &domain)
   {
-    std::vector<std::string> notes;
+    std::vector<Remark> notes;
     for (unsigned int k = 0; k < obstacles.size(); ++k)
       if (!obstacles[k].moves() &&
           has_end(obstacles[k].shape().bounding_box()) &&
           !is_met(obstacles, k, domain))
-        notes.push_back("No part of the obstacle '" + obstacles[k].name() +
-                        "' lies in the mesh outside of the other obstacles: "
-                        "soil never meets this obstacle, and all forces on the "
-                        "obstacle are 0. Move the obstacle, or remove the name "
-                        "from 'Obstacles/Names'.");
+        notes.emplace_back("no part lies in the mesh outside of the other "
+                           "obstacles: soil never meets this obstacle, and all "
+                           "forces on the obstacle are 0. Move the obstacle, "
+                           "or remove the name from 'Obstacles/Names'.",
+                           Severity::wrong,
+                           subject(obstacles[k]));
     return notes;
   }
 
 
 
   template <int dim>
-  std::vector<std::string>
+  std::vector<Remark>
   notes_on_uncapped_beds(const Obstacles<dim> &obstacles)
   {
-    std::vector<std::string> notes;
+    std::vector<Remark> notes;
     for (unsigned int k = 0; k < obstacles.size(); ++k)
       if (const double mu = obstacles[k].friction().coefficient();
           mu > 0. && !obstacles[k].limits_shear_stress() &&
           !has_end(obstacles[k].shape().bounding_box()))
-        notes.push_back(
-          text("The obstacle '",
-               obstacles[k].name(),
-               "' has no 'Maximum shear stress', but the soil has an undrained "
-               "shear strength: the surface passes up to ",
+        notes.emplace_back(
+          text("there is no 'Maximum shear stress', but the soil has an "
+               "undrained shear strength: the surface passes up to ",
                mu,
                " times the normal stress, which may be far above the strength, "
                "so that the soil shears above the surface instead of sliding. "
                "To let the soil slide, give the shear strength of the "
-               "interface by 'Obstacles/",
-               obstacles[k].name(),
-               "/Maximum shear stress'."));
+               "interface by 'Maximum shear stress'."),
+          mu < rough ? Severity::look : Severity::information,
+          subject(obstacles[k]));
     return notes;
   }
 

@@ -73,10 +73,10 @@ namespace talus
 
 
   template <int dim>
-  std::vector<std::string>
+  std::vector<Remark>
   check_obstacle_sizes(const Obstacles<dim> &obstacles, const Grid<dim> &grid)
   {
-    std::vector<std::string> notes;
+    std::vector<Remark> notes;
     for (unsigned int k = 0; k < obstacles.size(); ++k)
       {
         const Box<dim> box     = obstacles[k].bounding_box();
@@ -103,19 +103,19 @@ namespace talus
                                  how_to_refine,
                                  ", or remove the obstacle.")));
         if (is_shorter(extents[0].length, 2. * h))
-          notes.push_back(text("The obstacle '",
-                               obstacles[k].name(),
-                               "' is only ",
-                               in_words(extents[0]),
-                               ", less than two cells of ",
-                               in_words(h),
-                               ": soil on both sides moves with the same "
-                               "nodes, and the force on the obstacle is "
-                               "inaccurate. Use cells of ",
-                               needed,
-                               " or less there, ",
-                               how_to_refine,
-                               "."));
+          notes.emplace_back(text("only ",
+                                  in_words(extents[0]),
+                                  ", less than two cells of ",
+                                  in_words(h),
+                                  ": soil on both sides moves with the same "
+                                  "nodes, and the force on the obstacle is "
+                                  "inaccurate. Use cells of ",
+                                  needed,
+                                  " or less there, ",
+                                  how_to_refine,
+                                  "."),
+                             Severity::look,
+                             "obstacle '" + obstacles[k].name() + "'");
       }
     return notes;
   }

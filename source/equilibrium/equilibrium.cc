@@ -202,8 +202,8 @@ namespace talus
         const auto [largest, place] = newton_.equations().largest_imbalance();
         failure_                    = text(std::setprecision(6),
                         "After ",
-                        n_settling_,
-                        " steps without further load the unbalanced force "
+                        counted(n_settling_, "step"),
+                        " without further load the unbalanced force "
                                            "is ",
                         imbalance_,
                         " of the force of the loads, but at most ",

@@ -53,10 +53,12 @@ namespace talus
 
 
   template <int dim>
-  ExpressionSurface<dim>::ExpressionSurface(const std::string &path,
-                                            const std::string &expression,
-                                            const Constants   &constants,
-                                            const std::vector<Named> &others)
+  ExpressionSurface<dim>::ExpressionSurface(
+    const std::string              &path,
+    const std::string              &expression,
+    const Constants                &constants,
+    const std::vector<Named>       &others,
+    const std::vector<std::string> &names)
     : others_(others)
   {
     AssertThrow(
@@ -71,7 +73,7 @@ namespace talus
                    " are possible in an expression. Define a part of the "
                    "expression as a named surface in the section Surfaces.")));
     expression_ = std::make_unique<Expression<3>>(
-      path, expression, 1, constants, variables<dim>(others));
+      path, expression, 1, constants, variables<dim>(others), names);
   }
 
 

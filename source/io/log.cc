@@ -49,12 +49,20 @@ namespace talus
 
 
   void
-  Log::remark(const std::string &sentence)
+  Log::remark(const Remark &remark)
   {
     if (!is_first_rank(communicator_))
       return;
+    if (remark.severity == Severity::information)
+      return say(LogLevel::detail, remark.text());
+    const bool is_wrong = (remark.severity == Severity::wrong);
     ++n_remarks_;
-    say(LogLevel::result, text("Remark ", n_remarks_, ": ", sentence));
+    n_wrong_ += is_wrong;
+    say(LogLevel::result,
+        text("Remark ",
+             n_remarks_,
+             is_wrong ? " (do not use the results): " : ": ",
+             remark.text()));
   }
 
 
@@ -62,8 +70,9 @@ namespace talus
   std::string
   Log::count_of_remarks() const
   {
-    return n_remarks_ == 0   ? ""
-           : n_remarks_ == 1 ? "1 remark"
-                             : text(n_remarks_, " remarks");
+    return n_remarks_ == 0
+             ? ""
+             : counted(n_remarks_, "remark") +
+                 (n_wrong_ == 0 ? "" : ", do not use the results");
   }
 } // namespace talus

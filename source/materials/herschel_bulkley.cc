@@ -235,7 +235,7 @@ namespace talus
 
   // The work is the integral of s_u(xi) - r s_u0 over all xi.
   template <int dim>
-  std::string
+  Remark
   HerschelBulkley<dim>::note(const double cell_size) const
   {
     const double lost = (1. - remoulded_ratio_) * this->strength();

@@ -81,42 +81,43 @@ namespace talus
     /// Return a remark if the law has an undrained strength but Poisson's ratio
     /// is typical of drained soil; empty otherwise.
     template <int dim>
-    std::string
+    Remark
     note_on_volume(const MaterialModel<dim> &model)
     {
       const auto *law = dynamic_cast<const ElasticLaw<dim> *>(&model);
       if (law == nullptr || !model.has_strength() ||
           law->poisson_ratio() >= 0.4)
         return "";
-      return text("Section ",
-                  model.section(),
-                  ": `Poisson's ratio` is ",
-                  law->poisson_ratio(),
-                  ", but its law is one of undrained soil, which keeps its "
-                  "volume: 0.45 to 0.49 is usual. With less, load compresses "
-                  "the soil.");
+      return {text("`Poisson's ratio` is ",
+                   law->poisson_ratio(),
+                   ", but its law is one of undrained soil, which keeps its "
+                   "volume: 0.45 to 0.49 is usual. With less, load compresses "
+                   "the soil."),
+              Severity::look,
+              "section " + model.section()};
     }
   } // namespace
 
 
 
   template <int dim>
-  std::vector<std::string>
+  std::vector<Remark>
   Materials<dim>::notes(const double cell_size) const
   {
-    std::vector<std::string> result;
-    const auto              &used = material_of_body_;
+    std::vector<Remark> result;
+    const auto         &used = material_of_body_;
     for (unsigned int m = 0; m < models_.size(); ++m)
       if (std::find(used.begin(), used.end(), m) == used.end())
-        result.push_back("No body is made of the material of section " +
-                         models_[m]->section() +
-                         ": look at 'Material' of the bodies, or remove the "
-                         "name from 'Materials/Names'.");
+        result.emplace_back("no body is made of this material: look at "
+                            "'Material' of the bodies, or remove the name from "
+                            "'Materials/Names'.",
+                            Severity::look,
+                            "section " + models_[m]->section());
       else
-        for (const std::string &note :
-             {models_[m]->note(cell_size), note_on_volume(*models_[m])})
-          if (!note.empty())
-            result.push_back(note);
+        {
+          result.push_back(models_[m]->note(cell_size));
+          result.push_back(note_on_volume(*models_[m]));
+        }
     return result;
   }
 

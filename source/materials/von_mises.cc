@@ -209,7 +209,7 @@ namespace talus
 
   // With ep = gamma/sqrt(3) in simple shear, the strength is s_u + H gamma/3.
   template <int dim>
-  std::string
+  Remark
   VonMises<dim>::note(const double cell_size) const
   {
     const double lost = this->strength() - residual_strength_;

@@ -144,12 +144,13 @@ namespace talus
 
 
   template <int dim>
-  std::vector<std::string>
+  std::vector<Remark>
   Bodies<dim>::measure_thickness(const Points<dim> &points,
-                                 const Grid<dim>   &grid)
+                                 const Grid<dim>   &grid,
+                                 const bool         slides)
   {
     thickness_ = talus::measure_thickness(points, list_, grid);
-    return notes_on_thickness(thickness_);
+    return notes_on_thickness(thickness_, slides);
   }
 
 

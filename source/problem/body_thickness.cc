@@ -17,32 +17,51 @@ namespace talus
     // In thinner layers, top and base move with the same nodes.
     constexpr double n_cells_to_shear = 2.;
 
-    /// Column of cells above the plan: body, number along x, number along z.
+    /// Column of cells above the plan: number of the body, or of all bodies
+    /// with cells of a size behind the number of bodies; number along x; number
+    /// along z.
     using BodyColumn = std::array<long, 3>;
 
 
 
+    /// Return the number of the first body with the same cells.
+    unsigned int
+    number_of_size(const std::vector<double> &cell_size, const unsigned int b)
+    {
+      return std::find(cell_size.begin(), cell_size.end(), cell_size[b]) -
+             cell_size.begin();
+    }
+
+
+
     /// Return the thickness of the points on this rank in each column, in
-    /// cells. Columns are as wide as the smallest cells, and points of a cell
-    /// lie in one column.
+    /// cells: of each body, and of all bodies for each cell size. Columns are
+    /// as wide as the smallest cells of a body, and points of a cell lie in one
+    /// column.
     template <int dim>
     std::map<BodyColumn, double>
     columns_of_rank(const Points<dim>         &points,
                     const std::vector<double> &cell_size)
     {
       std::map<BodyColumn, double> columns;
+      const unsigned int           n_bodies = cell_size.size();
       for (unsigned int p = 0; p < points.size(); ++p)
-        {
-          const unsigned int b = points.data(points.body)[p];
-          const double       h = cell_size[b];
-          const auto         x = load_place(points, points.initial_position, p);
-          const BodyColumn   column{
-            {b,
-               std::lround(std::floor(x[0] / h)),
-             dim == 3 ? std::lround(std::floor(x[dim - 1] / h)) : 0}};
-          columns[column] +=
-            points.data(points.reference_volume)[p] / std::pow(h, dim);
-        }
+        for (unsigned int b = 0; b < n_bodies; ++b)
+          {
+            const double h = cell_size[b];
+            const auto   x = load_place(points, points.initial_position, p);
+            BodyColumn   column{
+              {n_bodies + b,
+                 std::lround(std::floor(x[0] / h)),
+               dim == 3 ? std::lround(std::floor(x[dim - 1] / h)) : 0}};
+            const double thickness =
+              points.data(points.reference_volume)[p] / std::pow(h, dim);
+            if (number_of_size(cell_size, b) == b)
+              columns[column] += thickness;
+            column[0] = b;
+            if (points.data(points.body)[p] == b)
+              columns[column] += thickness;
+          }
       return columns;
     }
 
@@ -82,9 +101,15 @@ namespace talus
     for (const auto &body : bodies)
       cell_size.push_back(
         grid.finest_size_in(body->bounding_box(grid.domain_before_growth())));
-    for (const auto &[column, thickness] :
-         whole_columns(columns_of_rank(points, cell_size), grid.communicator()))
-      n_cells[column[0]] = std::max(n_cells[column[0]], thickness);
+    const auto columns =
+      whole_columns(columns_of_rank(points, cell_size), grid.communicator());
+    for (const auto &[column, thickness] : columns)
+      if (const unsigned int b = column[0]; b < bodies.size())
+        {
+          BodyColumn all = column;
+          all[0]         = bodies.size() + number_of_size(cell_size, b);
+          n_cells[b]     = std::max(n_cells[b], columns.at(all));
+        }
     std::vector<BodyThickness> result;
     for (unsigned int b = 0; b < bodies.size(); ++b)
       result.push_back({bodies[b]->name(),
@@ -108,35 +133,36 @@ namespace talus
     return text(std::setprecision(3),
                 "The thinnest body, '",
                 thinnest->body,
-                "', is ",
-                thinnest->n_cells,
-                " cells of ",
+                "', lies in soil ",
+                counted(thinnest->n_cells, "cell"),
+                " of ",
                 thinnest->cell_size,
                 " m thick where it is thickest.");
   }
 
 
 
-  std::vector<std::string>
-  notes_on_thickness(const std::vector<BodyThickness> &bodies)
+  std::vector<Remark>
+  notes_on_thickness(const std::vector<BodyThickness> &bodies,
+                     const bool                        slides)
   {
-    std::vector<std::string> notes;
+    std::vector<Remark> notes;
     for (const BodyThickness &body : bodies)
       if (body.n_cells < (1. - 1e-6) * n_cells_to_shear)
-        notes.push_back(
+        notes.emplace_back(
           text(std::setprecision(3),
-               "The body '",
-               body.body,
-               "' is ",
-               body.n_cells,
-               " cells of ",
+               "the soil is ",
+               counted(body.n_cells, "cell"),
+               " of ",
                body.cell_size,
                " m thick where it is thickest, less than two: top and "
-               "base move with the same nodes, and the body hardly "
+               "base move with the same nodes, and the soil hardly "
                "shears. Cells of ",
                body.n_cells / n_cells_to_shear * body.cell_size,
                " m or less there, by 'Grid/Cell size' or 'Grid/Refinement "
-               "boxes', resolve it."));
+               "boxes', resolve it."),
+          slides && body.n_cells >= 1. ? Severity::information : Severity::look,
+          "body '" + body.body + "'");
     return notes;
   }
 

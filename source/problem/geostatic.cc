@@ -259,24 +259,26 @@ namespace talus
 
 
     /// Return a note, not an error: the first step returns the stress to the
-    /// yield surface, but the soil starts out of balance.
-    std::string
+    /// yield surface, but the soil starts out of balance. This is how a slide
+    /// is released, and a mistake in a slope that shall be at rest at first.
+    Remark
     note_of_yielding(const std::string &name,
                      const double       n_points,
-                     const double       ratio)
+                     const double       ratio,
+                     const bool         is_released)
     {
-      return text("The K0 stress is more than the soil of the body '",
-                  name,
-                  "' bears at ",
-                  n_points,
-                  " of its points: the shear stress is up to ",
-                  std::setprecision(6),
-                  ratio,
-                  " times the strength. The first steps return the stress to "
-                  "the strength, and the body starts to move. A slope at "
-                  "rest needs more strength or a 'Bodies/",
-                  name,
-                  "/K0' closer to 1.");
+      return {text("the K0 stress is more than the soil bears at ",
+                   counted(n_points, "point"),
+                   ": the shear stress is up to ",
+                   std::setprecision(6),
+                   ratio,
+                   " times the strength. The first steps return the stress to "
+                   "the strength, and the body starts to move. A slope at "
+                   "rest needs more strength or a 'Bodies/",
+                   name,
+                   "/K0' closer to 1."),
+              is_released ? Severity::information : Severity::look,
+              "body '" + name + "'"};
     }
   } // namespace
 
@@ -285,17 +287,18 @@ namespace talus
   /// The mass above the points, of all bodies, is computed once for all bodies
   /// with K0. Collective, also for ranks without points.
   template <int dim>
-  std::vector<std::string>
+  std::vector<Remark>
   set_geostatic_stress(Points<dim>                                   &points,
                        const std::vector<std::unique_ptr<Body<dim>>> &bodies,
                        const Materials<dim>                          &materials,
                        const Tensor<1, dim>                          &gravity,
                        const Ground<dim>                             &ground,
+                       const bool     is_released,
                        const MPI_Comm communicator)
   {
-    std::vector<double>      density, mass_above;
-    std::vector<std::string> notes;
-    bool                     is_first = true;
+    std::vector<double> density, mass_above;
+    std::vector<Remark> notes;
+    bool                is_first = true;
     for (unsigned int b = 0; b < bodies.size(); ++b)
       density.push_back(materials.of_body(b).submerged_density());
     for (unsigned int b = 0; b < bodies.size(); ++b)
@@ -329,8 +332,8 @@ namespace talus
         n_yielding = Utilities::MPI::sum(n_yielding, communicator);
         largest    = Utilities::MPI::max(largest, communicator);
         if (n_yielding > 0)
-          notes.push_back(
-            note_of_yielding(bodies[b]->name(), n_yielding, largest));
+          notes.push_back(note_of_yielding(
+            bodies[b]->name(), n_yielding, largest, is_released));
       }
     return notes;
   }

@@ -169,7 +169,7 @@ namespace talus
     return "'Gravity/Magnitude' is 0, and there is neither a body force nor a "
            "motion of the ground: the soil has no weight, and only initial "
            "velocities and stresses, faces of the mesh and obstacles move the "
-           "soil. Unless this is intended, set 'Gravity/Magnitude' to 9.81.";
+           "soil.";
   }
 
 

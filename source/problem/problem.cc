@@ -12,7 +12,6 @@
 #include <talus/transfer/send_to_owners.h>
 
 #include <algorithm>
-#include <iterator>
 
 namespace talus
 {
@@ -26,7 +25,7 @@ namespace talus
     : ParameterAcceptor("/")
     , inputs_(preview)
     , bodies_(preview.bodies)
-    , remarks_(preview.remarks)
+    , remarks_(preview.remarks.begin(), preview.remarks.end())
     , materials(preview.materials)
     , obstacles(preview.obstacles)
     , loading(preview.folder)
@@ -103,12 +102,12 @@ namespace talus
         const InitialState<dim>  &initial  = body.initial_state();
         const unsigned int        begin    = points.size();
         initial.check(material);
-        add_remarks(
-          {check_layer_surfaces(body,
-                                state.grid.domain_before_growth(),
-                                state.grid.cell_size()),
-           body.create_points(
-             state.grid, b, material.density(), points, obstacles.shapes())});
+        add_remarks(std::vector<Remark>{
+          check_layer_surfaces(body,
+                               state.grid.domain_before_growth(),
+                               state.grid.cell_size()),
+          body.create_points(
+            state.grid, b, material.density(), points, obstacles.shapes())});
         // At t = 0; set_velocity() corrects the velocity for half a step before
         // the start.
         initial.set_velocity(points, b, 0., inputs_.constants);
@@ -132,6 +131,7 @@ namespace talus
                            materials,
                            loading.share_of_gravity(0.) * loading.gravity(),
                            Ground<dim>(state.grid.domain(), &obstacles),
+                           trigger.end_time() <= 0.,
                            state.communicator()));
     look_at_geometry(state);
     if (bodies_.may_leave_cells())
@@ -141,19 +141,6 @@ namespace talus
       Utilities::MPI::sum(boundaries.seabed().slip().n_triggered() +
                             contact.slip().n_triggered(),
                           state.communicator()));
-  }
-
-
-
-  /// Append remarks; empty remarks are left out.
-  template <int dim>
-  void
-  Problem<dim>::add_remarks(const std::vector<std::string> &remarks)
-  {
-    std::copy_if(remarks.begin(),
-                 remarks.end(),
-                 std::back_inserter(remarks_),
-                 [](const std::string &remark) { return !remark.empty(); });
   }
 
 
@@ -180,10 +167,18 @@ namespace talus
     if (has_strength)
       add_remarks(notes_on_uncapped_beds(obstacles));
     add_remarks(inputs_.surfaces.notes_on_rising(from, to));
-    add_remarks(bodies_.measure_thickness(state.points, state.grid));
+    // Without weight no slide shears in layers.
+    const auto on_thickness =
+      bodies_.measure_thickness(state.points,
+                                state.grid,
+                                boundaries.has_seabed() ||
+                                  obstacles.limit_shear_stress());
+    if (loading.gravity().norm() > 0.)
+      add_remarks(on_thickness);
     // Face 2 is the bottom in 2-D and 3-D.
     if (boundaries.is_free(2))
-      add_remarks({note_on_bottom(obstacles, domain, state.grid.cell_size())});
+      add_remarks(std::vector<Remark>{
+        note_on_bottom(obstacles, domain, state.grid.cell_size())});
   }
 
 
@@ -272,8 +267,9 @@ namespace talus
   Problem<dim>::facts() const
   {
     std::vector<std::string> result = inputs_.surfaces.notes();
-    if (const std::string note = trigger.note(); !note.empty())
-      result.push_back(note);
+    for (const std::string &note : {trigger.note(), loading.note()})
+      if (!note.empty())
+        result.push_back(note);
     const auto on_obstacles = obstacles.facts();
     result.insert(result.end(), on_obstacles.begin(), on_obstacles.end());
     return result;
@@ -283,17 +279,15 @@ namespace talus
 
   /// The cell size is needed because softening depends on it.
   template <int dim>
-  std::vector<std::string>
+  std::vector<Remark>
   Problem<dim>::remarks(const double cell_size) const
   {
-    std::vector<std::string> result = remarks_;
-    if (const std::string note = loading.note(); !note.empty())
-      result.push_back(note);
-    const auto on_materials = materials.notes(cell_size);
+    std::vector<Remark> result       = remarks_;
+    const auto          on_materials = materials.notes(cell_size);
     result.insert(result.end(), on_materials.begin(), on_materials.end());
     const auto on_interactions = interactions.notes();
     result.insert(result.end(), on_interactions.begin(), on_interactions.end());
-    return result;
+    return joined(result);
   }
 
 

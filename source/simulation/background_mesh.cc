@@ -406,14 +406,14 @@ namespace talus
                 ") to (",
                 grid.domain().upper,
                 ") m with ",
-                grid.n_global_cells(),
-                " cells",
+                counted(grid.n_global_cells(), "cell"),
                 is_uniform ? " of " : ", the smallest of ",
                 grid.finest_size(),
-                " m; there are ",
-                Utilities::MPI::sum(state_.points.size(),
-                                    state_.communicator()),
-                " points.",
+                " m, and with ",
+                counted(Utilities::MPI::sum(state_.points.size(),
+                                            state_.communicator()),
+                        "point"),
+                ".",
                 grid.adjustment());
   }
 
@@ -428,10 +428,10 @@ namespace talus
     std::string        sentence;
     if (n_mesh_changes_ > 0)
       sentence += text(" The mesh changed ",
-                       n_mesh_changes_,
-                       " times and has ",
-                       state_.grid.n_global_cells(),
-                       " cells.");
+                       counted(n_mesh_changes_, "time"),
+                       " and has ",
+                       counted(state_.grid.n_global_cells(), "cell"),
+                       ".");
     if (n_ranks > 1)
       sentence += text(std::setprecision(6),
                        " The largest share of points of the ",
@@ -439,8 +439,8 @@ namespace talus
                        " ranks is ",
                        LoadBalance<dim>::imbalance(state_.points, communicator),
                        " times the mean; cells were shared out ",
-                       n_repartitions_,
-                       " times.");
+                       counted(n_repartitions_, "time"),
+                       ".");
     return sentence;
   }
 

@@ -23,7 +23,7 @@ namespace talus
   // The contact area is 0 before the first step of a run, and there is no
   // footprint without ground.
   template <int dim>
-  std::string
+  Remark
   ContactAreaRemark<dim>::remark(const State<dim> &state) const
   {
     TalusAssert(areas_.size() == 2, ExcInternalError());

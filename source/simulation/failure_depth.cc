@@ -131,8 +131,8 @@ namespace talus
                                     "Nine tenths of the mechanism lie within ",
                                     n_cells * h,
                                     " m of the mudline, ",
-                                    n_cells,
-                                    " cells.");
+                                    counted(n_cells, "cell"),
+                                    ".");
     if (n_cells >= few_cells || sums.motion == 0.)
       return result;
     return result +

@@ -69,8 +69,7 @@ namespace talus
       n_steps <= 1. ? " time step" : " time steps",
       pace.n_steps == 0 ? ""
                         : text(", which on ",
-                               n_ranks,
-                               n_ranks == 1 ? " rank" : " ranks",
+                               counted(n_ranks, "rank"),
                                " of this machine, as busy as it is now, take ",
                                duration(n_steps * pace.seconds),
                                " (",

@@ -455,7 +455,7 @@ namespace talus
     log_.say(level, mesh_.description());
     for (const std::string &fact : problem_.facts())
       log_.say(level, fact);
-    for (const std::string &remark : problem_.remarks(state_.grid.cell_size()))
+    for (const Remark &remark : problem_.remarks(state_.grid.cell_size()))
       log_.remark(remark);
     note_time_step(level);
   }

@@ -5,7 +5,7 @@
 namespace talus
 {
   template <int dim>
-  std::string
+  Remark
   SplitLimitRemark<dim>::remark(const State<dim> &state) const
   {
     const UnsplitPoints unsplit =
@@ -14,19 +14,26 @@ namespace talus
                               state.constants.box_shape.rule);
     if (unsplit.at_generation_limit + unsplit.at_mesh_limit == 0)
       return "";
-    return text(
-      "At t = ",
-      state.time,
-      " s points are stretched too far and cannot be split, so "
-      "that the soil may tear: ",
-      unsplit.at_generation_limit,
-      " points have reached 'Splitting/Maximum generation' (raise the "
-      "limit, unless the points lie on a base without slip); the children "
-      "of ",
-      unsplit.at_mesh_limit,
-      " points would lie more than half a cell outside the mesh (use a "
-      "larger mesh or smaller cells). The columns 'points at ... limit' "
-      "of statistics.csv continue the count.");
+    std::string why;
+    if (unsplit.at_generation_limit > 0)
+      why = counted(unsplit.at_generation_limit, "point") +
+            " reached 'Splitting/Maximum generation' (raise the limit, unless "
+            "the soil lies on a base without slip). ";
+    if (unsplit.at_mesh_limit > 0)
+      why += counted(unsplit.at_mesh_limit, "point") +
+             " would get children more than half a cell outside the mesh (use "
+             "a larger mesh or smaller cells). ";
+    // A limit below the default was chosen by the user.
+    return {text("At t = ",
+                 state.time,
+                 " s soil is stretched too far without a split, so that it may "
+                 "tear: ",
+                 why,
+                 "The columns 'points at ... limit' of statistics.csv continue "
+                 "the count."),
+            unsplit.at_mesh_limit == 0 && splitter_.has_lowered_limit()
+              ? Severity::information
+              : Severity::look};
   }
 
 

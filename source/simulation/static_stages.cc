@@ -160,8 +160,8 @@ namespace talus
     log_.say(LogLevel::result,
              text(std::setprecision(6),
                   "Equilibrium was found in ",
-                  equilibrium().n_steps(),
-                  " steps with ",
+                  counted(equilibrium().n_steps(), "step"),
+                  " with ",
                   equilibrium().newton().n_unknowns(),
                   " unknowns (linear solver: ",
                   equilibrium().newton().linear_solver(),
@@ -174,8 +174,8 @@ namespace talus
                   "."));
     if (equilibrium().newton().equations().reference_force() == 0.)
       log_.remark("The stage 'equilibrium' had nothing to balance: neither "
-                  "gravity, 'Gravity/Magnitude', nor another load acts on the "
-                  "soil, and the soil has no stress.");
+                  "gravity, 'Gravity/Magnitude', nor another load acts on "
+                  "the soil, and the soil has no stress.");
     tell_of_well_balanced_load();
   }
 
@@ -199,12 +199,11 @@ namespace talus
                   share,
                   " of the loads (Euclidean norms of the forces at the "
                   "nodes)",
-                  n_without > 0
-                    ? text(". There is no correction at ",
-                           n_without,
-                           " nodes beside free faces of the soil, as at "
-                           "cliffs.")
-                    : "."));
+                  n_without > 0 ? text(". There is no correction at ",
+                                       counted(n_without, "node"),
+                                       " beside free faces of the soil, as at "
+                                       "cliffs.")
+                                : "."));
   }
 
 
@@ -241,8 +240,8 @@ namespace talus
       log_.say(LogLevel::result,
                text("For the dynamics the weight acts without the correction "
                     "of the well-balanced load; balance was found in ",
-                    equilibrium().n_steps(),
-                    " steps."));
+                    counted(equilibrium().n_steps(), "step"),
+                    "."));
     else if (!solver_.is_stopped())
       {
         solver_.restore(before);

@@ -120,18 +120,18 @@ namespace talus
                          const std::string &expression) const
   {
     std::vector<typename ExpressionSurface<dim>::Named> others;
-    const auto words = words_of(expression);
+    const auto               words = words_of(expression);
+    std::vector<std::string> names;
     for (const auto &known : surfaces_)
       {
+        names.push_back(known.first);
         if (expression == known.first)
           return known.second;
         if (words.count(known.first) > 0)
           others.push_back(known);
       }
-    return std::make_shared<ExpressionSurface<dim>>(path,
-                                                    expression,
-                                                    *constants_,
-                                                    others);
+    return std::make_shared<ExpressionSurface<dim>>(
+      path, expression, *constants_, others, names);
   }
 
 

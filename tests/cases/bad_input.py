@@ -668,15 +668,15 @@ class CommandLine(Case):
                      "Materials/clay/Remoulded strength ratio=0.5", "thin.prm"]
         result = self.run_talus("--validate", *arguments)
         self.assert_succeeds(
-            result, "with 16 cells of 1 m; there are 12 points",
-            "'block', is 1.5 cells of 1 m thick", "the time step is 0.0",
+            result, "with 16 cells of 1 m; and with 12 points",
+            "'block', lies in soil 1.5 cells of 1 m thick", "the time step is 0.0",
             "about 92 time steps", "million point-steps per second",
             "MB of memory on each rank")
         remarks = self.remarks_in(result.stdout)
         self.assertEqual(len(remarks), 4, result.stdout)
         for number, words in enumerate(
                 ("thin.prm, line 2: 'End time' is set again, after line 1",
-                 "The body 'block' is 1.5 cells", "/Materials/clay softens",
+                 "Body 'block': the soil is 1.5 cells", "Section /Materials/clay: the material softens",
                  "/Materials/clay: `Poisson's ratio` is 0.3"), 1):
             self.assertIn(f"Remark {number}: ", remarks[number - 1])
             self.assertIn(words, remarks[number - 1])
@@ -724,7 +724,7 @@ class CommandLine(Case):
                                ["Materials/clay/Remoulded strength ratio=0.5"])
         self.assertEqual(result.returncode, 0, result.stderr)
         log = (self.results / "log.txt").read_text()
-        for words in ("/Materials/clay softens", "on cells of 1 m",
+        for words in ("Section /Materials/clay: the material softens", "on cells of 1 m",
                       "5 m and 2083.33 J/m^2 on cells of 0.5 m"):
             self.assertIn(words, log)
 

@@ -4,6 +4,7 @@
 
 #include <deal.II/base/exceptions.h>
 
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 #include <string>
@@ -32,6 +33,19 @@ namespace talus
     out.precision(10);
     (out << ... << arguments);
     return out.str();
+  }
+
+
+
+  /// Return "1 cell", "2 cells", or "1.25 cells" for the noun "cell".
+  inline std::string
+  counted(const double n, const std::string &noun)
+  {
+    return text(std::setprecision(n == std::floor(n) ? 15 : 3),
+                n,
+                ' ',
+                noun,
+                n == 1. ? "" : "s");
   }
 } // namespace talus
 

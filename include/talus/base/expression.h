@@ -44,11 +44,13 @@ namespace talus
     /// @param constants of the user
     /// @param variables names in place of x, y (, z), t, separated by commas;
     ///   messages do not mention names that begin with 'unused'
+    /// @param other_names that would be allowed, for messages
     Expression(const std::string &name,
                const std::string &expressions,
                unsigned int       n_components,
                const Constants   &constants,
-               const std::string &variables = dim == 2 ? "x,y,t" : "x,y,z,t");
+               const std::string &variables = dim == 2 ? "x,y,t" : "x,y,z,t",
+               const std::vector<std::string> &other_names = {});
 
     /// Return the value of a component at @p x, m, and time @p t, s.
     double

@@ -2,6 +2,7 @@
 #ifndef talus_contact_obstacle_remarks_h
 #define talus_contact_obstacle_remarks_h
 
+#include <talus/base/remark.h>
 #include <talus/contact/obstacles.h>
 
 #include <string>
@@ -12,7 +13,7 @@ namespace talus
   /// Return a remark for each finite obstacle at rest with no part in the
   /// region @p domain of the mesh outside of all other obstacles.
   template <int dim>
-  std::vector<std::string>
+  std::vector<Remark>
   notes_on_hidden_obstacles(const Obstacles<dim> &obstacles,
                             const Box<dim>       &domain);
 
@@ -20,7 +21,7 @@ namespace talus
   /// without maximum shear stress. Call if soil has an undrained shear
   /// strength.
   template <int dim>
-  std::vector<std::string>
+  std::vector<Remark>
   notes_on_uncapped_beds(const Obstacles<dim> &obstacles);
 } // namespace talus
 

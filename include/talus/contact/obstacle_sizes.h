@@ -2,6 +2,7 @@
 #ifndef talus_contact_obstacle_sizes_h
 #define talus_contact_obstacle_sizes_h
 
+#include <talus/base/remark.h>
 #include <talus/contact/obstacles.h>
 #include <talus/grid/grid.h>
 
@@ -16,7 +17,7 @@ namespace talus
   /// all sides, so that soil meets a body as large as a cell. Return a sentence
   /// for the log for each obstacle shorter than two cells along an axis.
   template <int dim>
-  std::vector<std::string>
+  std::vector<Remark>
   check_obstacle_sizes(const Obstacles<dim> &obstacles, const Grid<dim> &grid);
 } // namespace talus
 

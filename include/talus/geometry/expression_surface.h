@@ -29,10 +29,12 @@ namespace talus
     /// Throws ExcUser if the expression is not valid.
     /// @param path name of the parameter, for messages
     /// @param others named surfaces in the expression, at most n_others
-    ExpressionSurface(const std::string        &path,
-                      const std::string        &expression,
-                      const Constants          &constants,
-                      const std::vector<Named> &others);
+    /// @param names of all surfaces, for messages
+    ExpressionSurface(const std::string              &path,
+                      const std::string              &expression,
+                      const Constants                &constants,
+                      const std::vector<Named>       &others,
+                      const std::vector<std::string> &names = {});
 
     Value
     at(const dealii::Point<dim> &x) const override;

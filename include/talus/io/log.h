@@ -2,6 +2,7 @@
 #ifndef talus_io_log_h
 #define talus_io_log_h
 
+#include <talus/base/remark.h>
 #include <talus/base/state_list.h>
 #include <talus/io/files.h>
 
@@ -45,13 +46,13 @@ namespace talus
     say(LogLevel level, const std::string &sentence);
 
     /// Report a possible mistake in the input, or an impairment of the results:
-    /// "Remark 3: ...", always on standard output. The numbers continue in a
-    /// resumed run.
+    /// "Remark 3: ...", always on standard output; information goes to the file
+    /// only, without a number. The numbers continue in a resumed run.
     void
-    remark(const std::string &sentence);
+    remark(const Remark &remark);
 
-    /// Return "1 remark" or "N remarks"; empty if there are none. For the first
-    /// rank.
+    /// Return the number of remarks in words; empty if there are none. For the
+    /// first rank.
     std::string
     count_of_remarks() const;
 
@@ -61,6 +62,7 @@ namespace talus
     {
       // Remarks are counted by the first rank; all higher ranks have zero.
       list.add("remarks", "-", n_remarks_, Reduction::sum);
+      list.add("remarks on wrong results", "-", n_wrong_, Reduction::sum);
     }
 
   private:
@@ -68,6 +70,7 @@ namespace talus
     LogFile       file_;
     bool          is_open_   = false;
     unsigned long n_remarks_ = 0;
+    unsigned long n_wrong_   = 0; ///< of these, results must not be used
   };
 } // namespace talus
 

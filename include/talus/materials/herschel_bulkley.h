@@ -54,7 +54,7 @@ namespace talus
     fraction_of_strength_loss(const Points<dim> &points,
                               unsigned int       p) const override;
 
-    std::string
+    Remark
     note(double cell_size) const override;
 
   private:

@@ -2,6 +2,7 @@
 #ifndef talus_materials_material_model_h
 #define talus_materials_material_model_h
 
+#include <talus/base/remark.h>
 #include <talus/materials/undrained_strength.h>
 #include <talus/points/points.h>
 #include <talus/points/step_workspace.h>
@@ -230,9 +231,9 @@ namespace talus
     virtual bool
     is_nearly_incompressible() const = 0;
 
-    /// Remarks to the user on the material in cells of @p cell_size, m, before
-    /// the run starts: whole sentences, or empty.
-    virtual std::string
+    /// Return a remark on the material in cells of @p cell_size, m; may be
+    /// empty.
+    virtual Remark
     note(double /*cell_size*/) const
     {
       return "";

@@ -47,7 +47,7 @@ namespace talus
 
     /// Remarks on all materials used by bodies, see MaterialModel::note().
     /// @p cell_size in m.
-    std::vector<std::string>
+    std::vector<Remark>
     notes(double cell_size) const;
 
     /// Declare the internal variables of all laws and, if

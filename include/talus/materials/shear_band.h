@@ -2,6 +2,8 @@
 #ifndef talus_materials_shear_band_h
 #define talus_materials_shear_band_h
 
+#include <talus/base/remark.h>
+
 #include <string>
 
 namespace talus
@@ -20,7 +22,7 @@ namespace talus
   /// are proportional to the cell size. The remark gives both numbers for
   /// @p cell_size, m, and for half of @p cell_size. @p advice ends the sentence
   /// "When you change the cell size, ...".
-  std::string
+  Remark
   shear_band_note(const Softening   &softening,
                   double             cell_size,
                   const std::string &advice);
@@ -34,8 +36,8 @@ namespace talus
     std::string share_of_loss; ///< "all", or for example "95 %"
   };
 
-  /// Return a remark on the bands for which the displacement holds.
-  std::string
+  /// Return information on the bands for which the displacement holds.
+  Remark
   band_note(const SofteningOfBand &softening);
 } // namespace talus
 

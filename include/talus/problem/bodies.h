@@ -87,9 +87,12 @@ namespace talus
     mudline() const;
 
     /// Measure the thickness of the bodies filled with @p points. Return a
-    /// remark for each thin body. Collective.
-    std::vector<std::string>
-    measure_thickness(const Points<dim> &points, const Grid<dim> &grid);
+    /// remark for each thin body; @p slides as in notes_on_thickness().
+    /// Collective.
+    std::vector<Remark>
+    measure_thickness(const Points<dim> &points,
+                      const Grid<dim>   &grid,
+                      bool               slides);
 
     /// Thickness of the bodies; empty before measure_thickness().
     const std::vector<BodyThickness> &

@@ -2,6 +2,7 @@
 #ifndef talus_problem_body_thickness_h
 #define talus_problem_body_thickness_h
 
+#include <talus/base/remark.h>
 #include <talus/grid/grid.h>
 #include <talus/points/points.h>
 #include <talus/problem/body.h>
@@ -12,8 +13,9 @@
 
 namespace talus
 {
-  /// Maximum vertical thickness of a body, without the parts removed by
-  /// obstacles.
+  /// Maximum vertical thickness of the soil of all bodies in the columns of
+  /// cells of one body, without the parts removed by obstacles: a thin body
+  /// shears with the soil above and below.
   struct BodyThickness
   {
     std::string body;
@@ -29,14 +31,15 @@ namespace talus
                     const std::vector<std::unique_ptr<Body<dim>>> &bodies,
                     const Grid<dim>                               &grid);
 
-  /// Return a sentence with the thickness of the thinnest body in cells; empty
+  /// Return a sentence with the thickness of the thinnest soil in cells; empty
   /// without bodies.
   std::string
   sentence_on_thinnest(const std::vector<BodyThickness> &bodies);
 
-  /// Return a remark for each body thinner than two cells.
-  std::vector<std::string>
-  notes_on_thickness(const std::vector<BodyThickness> &bodies);
+  /// Return a remark for each body in soil thinner than two cells: information
+  /// for one to two cells of soil that @p slides on its base.
+  std::vector<Remark>
+  notes_on_thickness(const std::vector<BodyThickness> &bodies, bool slides);
 } // namespace talus
 
 #endif

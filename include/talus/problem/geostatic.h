@@ -2,6 +2,7 @@
 #ifndef talus_problem_geostatic_h
 #define talus_problem_geostatic_h
 
+#include <talus/base/remark.h>
 #include <talus/contact/ground.h>
 #include <talus/materials/materials.h>
 #include <talus/problem/body.h>
@@ -38,12 +39,13 @@ namespace talus
   /// stress above the strength. Throws ExcUser if a body is displaced or there
   /// is no gravity. Collective.
   template <int dim>
-  std::vector<std::string>
+  std::vector<Remark>
   set_geostatic_stress(Points<dim>                                   &points,
                        const std::vector<std::unique_ptr<Body<dim>>> &bodies,
                        const Materials<dim>                          &materials,
                        const dealii::Tensor<1, dim>                  &gravity,
                        const Ground<dim>                             &ground,
+                       bool     is_released,
                        MPI_Comm communicator);
 } // namespace talus
 

@@ -120,7 +120,7 @@ namespace talus
 
     /// Return remarks on possible mistakes in the input, and on impairments of
     /// the results, for cells of @p cell_size, m. Call after create_points().
-    std::vector<std::string>
+    std::vector<Remark>
     remarks(double cell_size) const;
 
     /// Update all data that depend on cells and nodes. Call after each change
@@ -156,16 +156,21 @@ namespace talus
     }
 
   private:
+    template <typename List>
     void
-    add_remarks(const std::vector<std::string> &remarks);
+    add_remarks(const List &remarks)
+    {
+      remarks_.insert(remarks_.end(), remarks.begin(), remarks.end());
+    }
+
     void
     look_at_geometry(const State<dim> &state);
     void
     find_mudline(const Grid<dim> &grid);
 
-    Inputs<dim>              inputs_;
-    Bodies<dim>              bodies_;
-    std::vector<std::string> remarks_; ///< remarks on the initial state
+    Inputs<dim>         inputs_;
+    Bodies<dim>         bodies_;
+    std::vector<Remark> remarks_; ///< remarks on the initial state
 
   public:
     // Parts of the problem, for direct use.

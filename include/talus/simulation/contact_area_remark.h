@@ -30,7 +30,7 @@ namespace talus
     list_quantities(const State<dim> &state, Quantities &list);
 
   private:
-    std::string
+    Remark
     remark(const State<dim> &state) const override;
 
     Quantities               areas_; ///< contact area, footprint; last row

@@ -26,7 +26,7 @@ namespace talus
     }
 
   private:
-    std::string
+    Remark
     remark(const State<dim> &state) const override
     {
       return rule_.report(state);

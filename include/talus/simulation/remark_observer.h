@@ -34,10 +34,10 @@ namespace talus
     {
       if (is_written_)
         return;
-      const std::string sentence = remark(state);
-      is_written_                = !sentence.empty();
+      const Remark found = remark(state);
+      is_written_        = !found.sentence.empty();
       if (is_written_)
-        log_.remark(sentence);
+        log_.remark(found);
     }
 
     /// Add whether the remark was written: a resumed run does not repeat it.
@@ -54,7 +54,7 @@ namespace talus
 
   private:
     /// Return the remark, empty on all ranks if there is no reason. Collective.
-    virtual std::string
+    virtual Remark
     remark(const State<dim> &state) const = 0;
 
     std::string name_;

@@ -21,7 +21,7 @@ namespace talus
     {}
 
   private:
-    std::string
+    Remark
     remark(const State<dim> &state) const override;
 
     const Splitter<dim> &splitter_;

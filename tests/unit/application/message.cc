@@ -91,14 +91,14 @@ namespace
   TEST(Message, WhatThereIsNot)
   {
     const std::string end =
-      "; `talus --document` lists all parameters. Sections of bodies and "
-      "materials are named in Bodies/Names and Materials/Names.";
+      ". `talus --document` lists all sections and parameters. Sections of "
+      "bodies and materials are named in Bodies/Names and Materials/Names.";
     EXPECT_EQ(
       told_of("set Titel = slide\n"),
       "slope.prm, line 1: there is no parameter 'Titel' in this section" + end);
     const std::string section = told_of("\nsubsection Girder\nend\n");
     EXPECT_EQ(section.find("slope.prm, line 2: there is no section 'Girder' "
-                           "here; `talus --document` lists"),
+                           "here. `talus --document` lists"),
               0u)
       << section;
   }

@@ -21,7 +21,7 @@ namespace
 
   /// Sentences for the log on an obstacle 'body' with these entries.
   template <int dim>
-  std::vector<std::string>
+  std::vector<Remark>
   notes(const std::string &entries, const std::string &refinement_boxes = "")
   {
     const Core<dim>          core(cells_of_a_metre<dim>(refinement_boxes));
@@ -72,7 +72,8 @@ TEST(ObstacleSizes, ThinAlongOneAxisOrTwo)
   ASSERT_EQ(remarks.size(), 1u);
   for (const char *words :
        {"'body'", "0.1 m along x", "two cells of 1 m", "0.025 m or less"})
-    EXPECT_TRUE(contains(remarks[0], words)) << words << " | " << remarks[0];
+    EXPECT_TRUE(contains(remarks[0].text(), words))
+      << words << " | " << remarks[0].text();
   EXPECT_EQ(notes<3>("Shape = box|Lower corner = 3, 1, -1|"
                      "Upper corner = 3.1, 4, 9")
               .size(),

@@ -406,12 +406,12 @@ namespace pipe_test
           "Radius = " +
             radius}},
         &surfaces);
-      std::vector<std::string> notes;
-      const std::string        error = message_of<ExcUser>(
+      std::vector<Remark> notes;
+      const std::string   error = message_of<ExcUser>(
         [&] { notes = check_obstacle_sizes(with.obstacles, core.grid); });
-      return error.empty() && !notes.empty() ? notes[0] : error;
+      return error.empty() && !notes.empty() ? notes[0].text() : error;
     };
-    EXPECT_TRUE(contains(said("0.4"), "is only 0.8 m across and 0.8 m across"))
+    EXPECT_TRUE(contains(said("0.4"), "only 0.8 m across and 0.8 m across"))
       << said("0.4");
     EXPECT_TRUE(contains(said("0.9"), "less than two cells of 1 m"))
       << said("0.9");

@@ -348,7 +348,7 @@ TEST(Viscoplastic, SofteningIsNoted)
   const auto check = [](const std::string              &name,
                         const std::string              &parameters,
                         const std::vector<std::string> &parts) {
-    const std::string note = make_law<2>(name, parameters)->note(0.4);
+    const std::string note = make_law<2>(name, parameters)->note(0.4).sentence;
     for (const std::string &part : parts)
       EXPECT_NE(note.find(part), std::string::npos) << part << '\n' << note;
   };
@@ -366,9 +366,10 @@ TEST(Viscoplastic, SofteningIsNoted)
         {"0.36 m and 270 J/m^2 on cells of 0.4 m",
          "0.18 m and 135 J/m^2 on cells of 0.2 m",
          "at -12500 Pa/m, or take"});
-  EXPECT_EQ(make_law<2>("Bingham", "")->note(0.4), "");
-  EXPECT_EQ(make_law<2>("von Mises", "")->note(0.4), "");
-  EXPECT_EQ(make_law<2>("von Mises", "set Hardening modulus = 1e3")->note(0.4),
-            "");
-  EXPECT_EQ(make_law<2>("linear elastic", "")->note(0.4), "");
+  EXPECT_EQ(make_law<2>("Bingham", "")->note(0.4).sentence, "");
+  EXPECT_EQ(make_law<2>("von Mises", "")->note(0.4).sentence, "");
+  EXPECT_EQ(
+    make_law<2>("von Mises", "set Hardening modulus = 1e3")->note(0.4).sentence,
+    "");
+  EXPECT_EQ(make_law<2>("linear elastic", "")->note(0.4).sentence, "");
 }

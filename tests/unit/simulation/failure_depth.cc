@@ -42,7 +42,7 @@ TEST(FailureDepth, DepthOfNineTenthsOfTheMotion)
     "Nine tenths of the mechanism lie within 0.25 m of the mudline, 0.5 "
     "cells.");
   const std::string thin = note(0.5);
-  EXPECT_TRUE(contains(thin, "within 0.5 m of the mudline, 1 cells.")) << thin;
+  EXPECT_TRUE(contains(thin, "within 0.5 m of the mudline, 1 cell.")) << thin;
   EXPECT_TRUE(contains(thin,
                        "strength of the moving soil is 5e+03 Pa, 1.27 of the "
                        "submerged weight of a cell per area, 3.92e+03 Pa."))

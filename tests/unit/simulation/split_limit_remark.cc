@@ -31,9 +31,8 @@ TEST(SplitLimitRemark, PointsThatCannotBeSplitAreToldOnce)
   testing::internal::CaptureStdout();
   remark.observe(core);
   const std::string said = testing::internal::GetCapturedStdout();
-  EXPECT_TRUE(contains(said, "2 points have reached 'Splitting/Maximum"))
-    << said;
-  EXPECT_TRUE(contains(said, "children of 1 points would lie more than half"))
+  EXPECT_TRUE(contains(said, "2 points reached 'Splitting/Maximum")) << said;
+  EXPECT_TRUE(contains(said, "1 point would get children more than half"))
     << said;
   remark.observe(core);
   EXPECT_EQ(log.count_of_remarks(), "1 remark");
