@@ -10,13 +10,12 @@
 TEST(Remarks, EqualOnesAreJoined)
 {
   using namespace talus;
-  const auto remarks =
-    joined({{"too thin.", Severity::look, "body 'a'"},
-            {""},
-            {"Nothing moves."},
-            {"too thin.", Severity::wrong, "body 'b'"},
-            {"Nothing moves."},
-            {"too thin.", Severity::look, "body 'c'"}});
+  const auto remarks = joined({{"too thin.", Severity::look, "body 'a'"},
+                               {""},
+                               {"Nothing moves."},
+                               {"too thin.", Severity::wrong, "body 'b'"},
+                               {"Nothing moves."},
+                               {"too thin.", Severity::look, "body 'c'"}});
   ASSERT_EQ(remarks.size(), 3u);
   EXPECT_EQ(remarks[0].text(), "Body 'a', body 'c': too thin.");
   EXPECT_EQ(remarks[1].text(), "Nothing moves.");
