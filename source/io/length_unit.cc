@@ -42,7 +42,7 @@ namespace talus
       {"us foot", survey},
       {"us ft", survey},
       {"foot u", survey}, // Foot_US
-      {"ftu", survey}, // ftUS
+      {"ftu", survey},    // ftUS
       {"fathom", 1.8288}};
     const auto found = lengths.find(name);
     return found == lengths.end() ? 0. : found->second;

@@ -96,35 +96,30 @@ namespace talus
                      const double                 unit)
     {
       const auto [lowest, highest] = range_of(raster.values);
-      const auto        it         = std::find_if(raster.values.begin(),
-                                   raster.values.end(),
-                                   [unit](const double number) {
-                                     return is_mark(number, unit);
-                                   });
-      const std::size_t i          = it - raster.values.begin();
-      AssertThrow(it == raster.values.end(),
-                  ExcUser(text(
-                    "The raster '",
-                    file.string(),
-                    "' has heights from ",
-                    lowest * unit,
-                    " to ",
-                    highest * unit,
-                    " m, and the number ",
-                    shortest(*it),
-                    " at the place (",
-                    raster.x(i % raster.n_columns),
-                    ", ",
-                    raster.y(i / raster.n_columns),
-                    ") of the map. Is this a value for no data that the "
-                    "raster does not declare? Declare the value: nodata_value ",
-                    shortest(*it),
-                    " in the head of an Esri ASCII grid, or gdal_edit.py "
-                    "-a_nodata ",
-                    shortest(*it),
-                    ' ',
-                    for_shell(file.string()),
-                    ".")));
+      AssertThrow(lowest <= highest,
+                  ExcUser("The raster '" + file.string() +
+                          "' has no value at the mesh. Give another raster, or "
+                          "move the mesh ('Grid/Origin', 'Section')."));
+      for (const double mark : {lowest, highest})
+        AssertThrow(!is_mark(mark, unit),
+                    ExcUser(
+                      text("The raster '",
+                           file.string(),
+                           "' has heights from ",
+                           lowest * unit,
+                           " to ",
+                           highest * unit,
+                           " m: is ",
+                           shortest(mark),
+                           " a value for no data that the raster does "
+                           "not declare? Declare the value: nodata_value ",
+                           shortest(mark),
+                           " in the head of an Esri ASCII grid, or "
+                           "gdal_edit.py -a_nodata ",
+                           shortest(mark),
+                           ' ',
+                           for_shell(file.string()),
+                           ".")));
       const double farthest = std::max({std::abs(raster.west),
                                         std::abs(raster.south),
                                         raster.n_columns * raster.dx,

@@ -281,7 +281,7 @@ class BadInputTerrain(Case):
     def test_rasters_of_no_ground(self):
         for content, *words in (
                 (self.HEAD + "1 1 1\n1 9.97e36 1\n1 1 1\n",
-                 "heights from 1 to 9.97e+36 m", "the number 9.97e+36 at the place (2.5, 2.5)",
+                 "heights from 1 to 9.97e+36 m", "is 9.97e+36 a value for no data",
                  "nodata_value 9.97e+36"),
                 (self.HEAD + "nodata_value 0\n1 1 1\n1 -9999 1\n1 1 1\n",
                  "heights from -9999 to 1 m", "does not declare?", "nodata_value -9999 in"),

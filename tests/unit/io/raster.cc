@@ -292,6 +292,8 @@ namespace raster_test
            "1 2 3 -3.4028234663852886e+38\n" + "5 6 7 8\n8 9 10 11\n");
     EXPECT_TRUE(std::isnan(raster.value(3, 0)));
     EXPECT_EQ(raster.value(2, 0), 3.);
+    expect_error(header + "nodata 1\n1 1 1 1\n1 1 1 1\n1 1 1 1\n",
+                 "has no value at the mesh");
     // The advice is followed.
     const std::string rows =
       "1 2 3 -3.4028234663852886e+38\n5 6 7 8\n1 2 3 4\n";
