@@ -20,69 +20,53 @@ namespace talus::python
   namespace
   {
     /// Held by the thread whose run computes. Recursive, because a function of
-    /// Python that a run calls may use this or another run.
+    /// Python that a run calls may use another run. Taken before the turn of a
+    /// run.
     std::recursive_mutex computing;
-
-    /// Whether a thread computes without Python's lock. Read and written with
-    /// the lock.
-    bool is_computing = false;
 
     /// All open runs. Used with Python's lock.
     std::set<LedRun *> open_runs;
 
 
 
-    /// Python's lock, held in a function of Python that a run calls.
-    class InPython
+    /// Lock @p mutex. Waiting with Python's lock would stop the functions of
+    /// Python that the owner of the mutex calls.
+    std::unique_lock<std::recursive_mutex>
+    lock(std::recursive_mutex &mutex)
     {
-    public:
-      InPython()
-      {
-        is_computing = false;
-      }
-
-      ~InPython()
-      {
-        is_computing = true;
-      }
-
-    private:
-      py::gil_scoped_acquire lock_;
-    };
-
-
-
-    /// Call @p action without Python's lock, when no other thread computes.
-    /// Waiting for the other thread with Python's lock would stop the functions
-    /// of Python that the other thread calls.
-    template <typename Action>
-    auto
-    compute(const Action &action)
-    {
-      struct Flag
-      {
-        Flag()
-        {
-          is_computing = true;
-        }
-
-        ~Flag()
-        {
-          is_computing = before;
-        }
-
-        bool before = is_computing;
-      };
-      std::unique_lock<std::recursive_mutex> turn(computing, std::defer_lock);
-      {
-        const py::gil_scoped_release release;
-        turn.lock();
-      }
-      const Flag                   flag;
       const py::gil_scoped_release release;
-      return action();
+      return std::unique_lock<std::recursive_mutex>(mutex);
     }
   } // namespace
+
+
+
+  std::unique_lock<std::recursive_mutex>
+  LedRun::wait_for_turn() const
+  {
+    std::unique_lock<std::recursive_mutex> turn(turn_, std::try_to_lock);
+    if (turn.owns_lock())
+      return turn;
+    AssertThrow(!is_advancing_,
+                ExcUser("The run advances in another thread. Wait for the end "
+                        "of advance_to(), or read the state in its "
+                        "callback."));
+    return lock(turn_);
+  }
+
+
+
+  template <typename Action>
+  auto
+  LedRun::compute(const Action &action) const
+  {
+    wait_for_turn(); // throws if the run advances in another thread
+    const auto library = lock(computing);
+    return use([&action](Run &run) {
+      const py::gil_scoped_release release;
+      return action(run);
+    });
+  }
 
 
 
@@ -92,13 +76,15 @@ namespace talus::python
                  const RunOptions               &options,
                  const py::object               &communicator)
   {
-    const MPI_Comm ranks = communicator_of(communicator);
-    compute([&]() {
-      const ParameterFile file =
+    const MPI_Comm ranks   = communicator_of(communicator);
+    const auto     library = lock(computing);
+    {
+      const py::gil_scoped_release release;
+      const ParameterFile          file =
         is_text ? ParameterFile::from_text(file_or_text, overrides)
-                : ParameterFile(file_or_text, overrides, ranks);
+                         : ParameterFile(file_or_text, overrides, ranks);
       run_ = std::make_unique<Run>(file, options, ranks);
-    });
+    }
     open_runs.insert(this);
   }
 
@@ -114,6 +100,9 @@ namespace talus::python
   void
   LedRun::close()
   {
+    wait_for_turn(); // throws if the run advances in another thread
+    const auto library = lock(computing);
+    const auto turn    = wait_for_turn();
     AssertThrow(!is_advancing_,
                 ExcUser("A function that is called by a run closes the run. "
                         "Call stop() there, and close() after advance_to()."));
@@ -128,10 +117,6 @@ namespace talus::python
   {
     AssertThrow(run_ != nullptr,
                 ExcUser("The run has been closed. Make a new one."));
-    AssertThrow(!is_advancing_ || !is_computing,
-                ExcUser("The run advances in another thread. Wait for the end "
-                        "of advance_to(), or read the state in its "
-                        "callback."));
     return *run_;
   }
 
@@ -140,7 +125,7 @@ namespace talus::python
   void
   LedRun::after_step(const py::object &callback) const
   {
-    const InPython scope;
+    const py::gil_scoped_acquire lock;
     if (PyErr_CheckSignals() != 0)
       throw py::error_already_set();
     if (!callback.is_none())
@@ -152,14 +137,10 @@ namespace talus::python
   bool
   LedRun::advance_to(const double time, const py::object &callback)
   {
-    Run &run = this->run();
-    AssertThrow(!is_advancing_,
-                ExcUser("A function that is called by a run advances the run. "
-                        "Return from the function first."));
     struct Advancing
     {
-      bool &flag;
-      explicit Advancing(bool &f)
+      std::atomic<bool> &flag;
+      explicit Advancing(std::atomic<bool> &f)
         : flag(f)
       {
         flag = true;
@@ -169,9 +150,14 @@ namespace talus::python
         flag = false;
       }
     };
-    const Advancing scope(is_advancing_);
-    run.set_observer([this, &callback]() { after_step(callback); });
-    return compute([&]() { return run.advance_to(time); });
+    return compute([&](Run &run) {
+      AssertThrow(!is_advancing_,
+                  ExcUser("A function that is called by a run advances the "
+                          "run. Return from the function first."));
+      const Advancing scope(is_advancing_);
+      run.set_observer([this, &callback]() { after_step(callback); });
+      return run.advance_to(time);
+    });
   }
 
 
@@ -179,8 +165,7 @@ namespace talus::python
   std::string
   LedRun::write_checkpoint()
   {
-    Run &run = this->run();
-    return compute([&]() { return run.write_checkpoint(); });
+    return compute([](Run &run) { return run.write_checkpoint(); });
   }
 
 
@@ -188,8 +173,7 @@ namespace talus::python
   Quantities
   LedRun::statistics()
   {
-    Run &run = this->run();
-    return compute([&]() { return run.statistics(); });
+    return compute([](Run &run) { return run.statistics(); });
   }
 
 
@@ -197,24 +181,7 @@ namespace talus::python
   Quantities
   LedRun::accounts()
   {
-    Run &run = this->run();
-    return compute([&]() { return run.accounts(); });
-  }
-
-
-
-  unsigned int
-  LedRun::rank() const
-  {
-    return dealii::Utilities::MPI::this_mpi_process(run().communicator());
-  }
-
-
-
-  unsigned int
-  LedRun::n_ranks() const
-  {
-    return dealii::Utilities::MPI::n_mpi_processes(run().communicator());
+    return compute([](Run &run) { return run.accounts(); });
   }
 
 
@@ -227,9 +194,26 @@ namespace talus::python
                      const py::function &velocity)
   {
     const auto shared = std::make_shared<py::function>(velocity);
-    options.obstacle_velocities[obstacle] = [shared](const double time) {
-      const InPython scope;
-      return (*shared)(time).cast<std::vector<double>>();
+    options.obstacle_velocities[obstacle] = [obstacle,
+                                             shared](const double time) {
+      const py::gil_scoped_acquire lock;
+      const py::object             value = (*shared)(time);
+      try
+        {
+          return value.cast<std::vector<double>>();
+        }
+      catch (const py::cast_error &)
+        {
+          throw ExcUser(text("The velocity of the obstacle '",
+                             obstacle,
+                             "', prescribed by the program that leads the "
+                             "run, is ",
+                             py::repr(value).cast<std::string>(),
+                             " at t = ",
+                             time,
+                             " s, where a list of numbers in m/s was expected. "
+                             "Correct the function."));
+        }
     };
   }
 

@@ -6,7 +6,10 @@
 
 #include <talus/application/run.h>
 
+#include <atomic>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -30,8 +33,8 @@ namespace talus::python
 
     ~LedRun();
 
-    /// Destroy the run; files and memory are released. A closed run is left
-    /// unchanged.
+    /// Destroy the run, after the calls of other threads; files and memory are
+    /// released. A closed run is left unchanged.
     void
     close();
 
@@ -50,22 +53,40 @@ namespace talus::python
     Quantities
     accounts();
 
-    unsigned int
-    rank() const;
+    /// Return the result of @p action, a function of a Run, for the run. Waits
+    /// for the calls of other threads. Throws ExcUser if the run is closed, or
+    /// advances in another thread.
+    template <typename Action>
+    auto
+    use(const Action &action) const
+    {
+      const std::unique_lock<std::recursive_mutex> turn = wait_for_turn();
+      return std::invoke(action, run());
+    }
 
-    unsigned int
-    n_ranks() const;
+  private:
+    std::unique_lock<std::recursive_mutex>
+    wait_for_turn() const;
 
-    /// The run, which must be open and must not compute in another thread.
+    /// Call use() without Python's lock, when no other run computes.
+    template <typename Action>
+    auto
+    compute(const Action &action) const;
+
+    /// The run, which must be open.
     Run &
     run() const;
 
-  private:
     void
     after_step(const pybind11::object &callback) const;
 
     std::unique_ptr<Run> run_;
-    bool                 is_advancing_ = false;
+    std::atomic<bool>    is_advancing_ = false;
+
+    /// Held by the thread that uses the run. Recursive, because a function of
+    /// Python that the run calls may use the run. A thread with Python's lock
+    /// never waits for the turn: the owner may need Python's lock.
+    mutable std::recursive_mutex turn_;
   };
 
 

@@ -9,6 +9,7 @@
 #include <talus/application/message.h>
 
 #include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
 
 #include <new>
 
@@ -72,7 +73,7 @@ namespace
   py::array
   column(const python::LedRun &led, const std::string &name)
   {
-    for (const PointColumn &column : led.run().point_columns())
+    for (const PointColumn &column : led.use(&Run::point_columns))
       if (column.name == name)
         return as_array(column);
     throw py::key_error(name);
@@ -84,7 +85,7 @@ namespace
   columns(const python::LedRun &led)
   {
     py::list result;
-    for (const PointColumn &column : led.run().point_columns())
+    for (const PointColumn &column : led.use(&Run::point_columns))
       result.append(py::make_tuple(column.name, column.unit));
     return result;
   }
@@ -127,7 +128,17 @@ namespace
 
 PYBIND11_MODULE(_talus, module)
 {
+  using dealii::Utilities::MPI::n_mpi_processes;
+  using dealii::Utilities::MPI::this_mpi_process;
   using python::LedRun;
+  const auto get = [](const auto member) {
+    return [member](const LedRun &led) { return led.use(member); };
+  };
+  const auto on_ranks = [](const auto function) {
+    return [function](const LedRun &led) {
+      return function(led.use(&Run::communicator));
+    };
+  };
   python::begin_mpi();
   py::register_exception_translator(&translate);
   add_obstacle(module);
@@ -143,37 +154,18 @@ PYBIND11_MODULE(_talus, module)
     .def("_columns", &columns)
     .def("_statistics", [](LedRun &led) { return as_dict(led.statistics()); })
     .def("_accounts", [](LedRun &led) { return as_dict(led.accounts()); })
-    .def("_obstacles", [](const LedRun &led) { return led.run().obstacles(); })
-    .def("stop", [](const LedRun &led) { led.run().stop(); })
+    .def("_obstacles", get(&Run::obstacles))
+    .def("stop", get(&Run::stop))
     .def("close", &LedRun::close)
-    .def_property_readonly("dimension",
-                           [](const LedRun &led) {
-                             return led.run().dimension();
-                           })
-    .def_property_readonly("time",
-                           [](const LedRun &led) { return led.run().time(); })
-    .def_property_readonly("end_time",
-                           [](const LedRun &led) {
-                             return led.run().end_time();
-                           })
-    .def_property_readonly("time_step",
-                           [](const LedRun &led) {
-                             return led.run().time_step();
-                           })
-    .def_property_readonly("n_steps",
-                           [](const LedRun &led) {
-                             return led.run().n_steps();
-                           })
-    .def_property_readonly("is_finished",
-                           [](const LedRun &led) {
-                             return led.run().is_finished();
-                           })
-    .def_property_readonly("folder",
-                           [](const LedRun &led) {
-                             return led.run().output_folder();
-                           })
-    .def_property_readonly("rank", &LedRun::rank)
-    .def_property_readonly("n_ranks", &LedRun::n_ranks);
+    .def_property_readonly("dimension", get(&Run::dimension))
+    .def_property_readonly("time", get(&Run::time))
+    .def_property_readonly("end_time", get(&Run::end_time))
+    .def_property_readonly("time_step", get(&Run::time_step))
+    .def_property_readonly("n_steps", get(&Run::n_steps))
+    .def_property_readonly("is_finished", get(&Run::is_finished))
+    .def_property_readonly("folder", get(&Run::output_folder))
+    .def_property_readonly("rank", on_ranks(&this_mpi_process))
+    .def_property_readonly("n_ranks", on_ranks(&n_mpi_processes));
   py::class_<RunOptions>(module, "Options")
     .def(py::init<>())
     .def_readwrite("output_folder", &RunOptions::output_folder)

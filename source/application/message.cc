@@ -8,6 +8,7 @@
 
 #include <boost/program_options/errors.hpp>
 
+#include <filesystem>
 #include <iomanip>
 #include <new>
 #include <regex>
@@ -48,7 +49,9 @@ namespace talus
       std::istringstream words(information.str());
       std::string        line, word;
       while (words >> word)
-        line += (line.empty() ? "" : " ") + printable(word);
+        line +=
+          (line.empty() ? "" : " ") +
+          printable(word.size() < 1000 ? word : word.substr(0, 100) + "...'");
       return line;
     }
 
@@ -165,6 +168,11 @@ namespace talus
 
     const std::string line = one_line(exception);
     std::smatch       part;
+    if (const auto *error =
+          dynamic_cast<const std::filesystem::filesystem_error *>(&exception))
+      return "The path '" + printable(error->path1().string().substr(0, 100)) +
+             "' cannot be used (" + error->code().message() +
+             "). Give another path.";
     if (dynamic_cast<const boost::program_options::error *>(&exception))
       return "On the command line, " + line +
              "; `talus --help` shows what is expected.";

@@ -40,14 +40,17 @@ namespace talus
                   ExcUser("--set '" + override_text +
                           "' was given, where 'Section/Subsection/Entry=value' "
                           "was expected."));
-      // A line break in the value could hide an `include`, and a backslash at
-      // the end joins the next line.
-      AssertThrow(override_text.find('\n') == std::string::npos &&
+      // A line break in the value could hide an `include`, a backslash at the
+      // end joins the next line, and # begins a comment.
+      AssertThrow(override_text.find_first_of("\n#") == std::string::npos &&
                     Utilities::trim(override_text).back() != '\\',
                   ExcUser("--set '" + override_text.substr(0, equals) +
-                          "' was given a value of several lines or with a "
-                          "backslash at its end, where one line was "
-                          "expected. Give --set once for each entry."));
+                          "' was given a value of several lines, with a '#' or "
+                          "with a backslash at its end, where one line without "
+                          "a comment was expected. Correct the value, and "
+                          "give --set once for each entry."));
+      check_utf8("--set '" + override_text.substr(0, equals) + "'",
+                 override_text.substr(equals));
       auto path =
         Utilities::split_string_list(override_text.substr(0, equals), '/');
       const std::string entry = path.back();

@@ -8,6 +8,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <cmath>
 #include <limits>
 #include <utility>
 #include <variant>
@@ -330,6 +331,9 @@ namespace talus
   bool
   Run::advance_to(const double time)
   {
+    AssertThrow(!std::isnan(time),
+                ExcUser("The run was told to advance to the time nan, where a "
+                        "number of seconds was expected. Correct the time."));
     check_usable();
     parts_->is_stop_requested = false;
     if (parts_->phase == Phase::set_up)

@@ -235,20 +235,15 @@ namespace talus
                       const Point<dim> &centre,
                       const double      angle)
     {
-      Box<dim> result{centre, centre};
+      std::vector<Point<dim>> places = {centre};
       for (unsigned int v = 0; v < (1u << dim); ++v)
         {
           Point<dim> corner;
           for (unsigned int d = 0; d < dim; ++d)
             corner[d] = (v & (1u << d)) ? box.upper[d] : box.lower[d];
-          const Point<dim> x = centre + rotated<dim>(corner - centre, angle);
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              result.lower[d] = std::min(result.lower[d], x[d]);
-              result.upper[d] = std::max(result.upper[d], x[d]);
-            }
+          places.push_back(centre + rotated<dim>(corner - centre, angle));
         }
-      return result;
+      return talus::bounding_box(places);
     }
   } // namespace
 

@@ -64,13 +64,12 @@ namespace talus
         boxes.emplace_back(BoundingBox<3>({lower, upper}), i);
       }
     segments_ = pack_rtree(boxes);
-    box_      = {axis_[0], axis_[0]};
-    for (const Point<3> &corner : axis_)
-      for (unsigned int d = 0; d < 3; ++d)
-        {
-          box_.lower[d] = std::min(box_.lower[d], corner[d] - radius_);
-          box_.upper[d] = std::max(box_.upper[d], corner[d] + radius_);
-        }
+    box_      = talus::bounding_box(axis_);
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        box_.lower[d] -= radius_;
+        box_.upper[d] += radius_;
+      }
   }
 
 

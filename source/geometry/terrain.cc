@@ -9,21 +9,6 @@ namespace talus
 {
   using namespace dealii;
 
-  namespace
-  {
-    /// Map coordinates need more digits than the default of a stream.
-    std::string
-    digits(const double coordinate)
-    {
-      std::ostringstream out;
-      out.precision(9);
-      out << coordinate;
-      return out.str();
-    }
-  } // namespace
-
-
-
   template <int dim>
   Terrain<dim>::Terrain(std::shared_ptr<const HeightField> heights,
                         const std::string                 &name,
@@ -99,17 +84,17 @@ namespace talus
                              "' has no value at (",
                              x,
                              ") m of the mesh, which is easting ",
-                             digits(place.origin[0] + place.x[0]),
+                             place.origin[0] + place.x[0],
                              " m, northing ",
-                             digits(place.origin[1] + place.x[1]),
-                             " m. It reaches from ",
-                             digits(map.west),
+                             place.origin[1] + place.x[1],
+                             " m. It was read from ",
+                             map.west,
                              " m to ",
-                             digits(map.west + map.n_columns * map.dx),
+                             map.east(),
                              " m and from ",
-                             digits(map.south),
+                             map.south,
                              " m to ",
-                             digits(map.south + map.n_rows * map.dy),
+                             map.north(),
                              " m, and may have places without data. Soil could "
                              "come there: make the mesh smaller, move it "
                              "('Grid/Origin', 'Section'), or fill the raster "

@@ -3,6 +3,8 @@
 #include <talus/io/coordinate_system.h>
 #include <talus/io/gdal.h>
 
+#include <boost/algorithm/string/predicate.hpp>
+
 #include <cmath>
 #include <cstdlib>
 
@@ -18,17 +20,21 @@ namespace talus
 
 
 
-  // Files and addresses in place of a description are not opened.
+  // Files and addresses in place of a description are not opened. Old files
+  // .prj of Arc have lines such as `Projection UTM` and `Units FEET`.
   std::optional<OGRSpatialReference>
   spatial_reference(const std::string &words)
   {
     const QuietGdal     quiet;
     OGRSpatialReference system;
-    if (words.empty() ||
-        system.SetFromUserInput(
-          words.c_str(),
-          OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) !=
-          OGRERR_NONE)
+    CPLStringList       lines(CSLTokenizeString2(words.c_str(), "\r\n", 0));
+    const OGRErr        error =
+      boost::istarts_with(words, "projection")
+               ? system.importFromESRI(lines.List())
+               : system.SetFromUserInput(
+            words.c_str(),
+            OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get());
+    if (words.empty() || error != OGRERR_NONE)
       return {};
     system.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     return system;
@@ -59,9 +65,38 @@ namespace talus
       return std::abs(system->GetAngularUnits() * 180. / M_PI - 1.) < 1e-9
                ? MapUnit::degrees
                : MapUnit::other;
-    if (system->IsProjected())
-      return system->GetLinearUnits() == 1. ? MapUnit::metres : MapUnit::other;
-    return MapUnit::unknown;
+    return system->GetLinearUnits() == 1. ? MapUnit::metres : MapUnit::other;
+  }
+
+
+
+  void
+  check_understood(const std::string &coordinate_system,
+                   const std::string &file)
+  {
+    AssertThrow(coordinate_system.empty() ||
+                  spatial_reference(coordinate_system),
+                ExcUser(file + " has the coordinate system '" +
+                        coordinate_system.substr(0, 60) +
+                        "', which GDAL does not know: the unit of the "
+                        "coordinates would be a guess. Write the system as "
+                        "well-known text or EPSG:NUMBER."));
+  }
+
+
+
+  double
+  strip_vertical_axis(std::string &coordinate_system)
+  {
+    auto system = spatial_reference(coordinate_system);
+    if (!system || !system->IsVertical())
+      return 0.;
+    OGRAxisOrientation direction = OAO_Up;
+    system->GetAxis("VERT_CS", 0, &direction);
+    const double unit   = system->GetTargetLinearUnits("VERT_CS");
+    const bool has_more = system->IsCompound() && system->StripVertical() == 0;
+    coordinate_system   = has_more ? export_to_text(*system) : "";
+    return direction == OAO_Down ? -unit : unit;
   }
 
 

@@ -250,34 +250,42 @@ namespace talus
 
 
 
-    /// Append the values of a row. Commas are decimal points if blanks separate
-    /// as many entries as there are columns, otherwise separators.
+    /// Read row number @p row of the raster @p whole, and append the values of
+    /// cells in @p part. Commas are decimal points if blanks separate as many
+    /// entries as there are columns, otherwise separators.
     void
-    read_row(const Line &line, Raster &raster)
+    read_row(const Line       &line,
+             const std::size_t row,
+             const Raster     &whole,
+             Raster           &part)
     {
       auto words = split(line.content, "");
-      if (words.size() != raster.n_columns ||
+      if (words.size() != whole.n_columns ||
           std::any_of(words.begin(), words.end(), [](const auto word) {
             return word.back() == ',';
           }))
         words = split(line.content, ",");
-      const std::size_t row = raster.values.size() / raster.n_columns;
-      AssertThrow(words.size() == raster.n_columns,
+      AssertThrow(words.size() == whole.n_columns,
                   ExcUser(text(line.place(),
                                "row ",
                                row + 1,
                                " has ",
                                words.size(),
                                " values, but ncols is ",
-                               raster.n_columns,
+                               whole.n_columns,
                                ". Give one line for each row, with one value "
                                "for each column.")));
-      AssertThrow(row < raster.n_rows,
+      AssertThrow(row < whole.n_rows,
                   ExcUser(text(line.place(),
                                "there is one more row of values, but nrows is ",
-                               raster.n_rows,
+                               whole.n_rows,
                                ". Correct nrows or remove the row.")));
-      for (unsigned int c = 0; c < words.size(); ++c)
+      const double y = whole.y(row);
+      if (y < part.south || y > part.north())
+        return;
+      const std::size_t first =
+        std::lround((part.west - whole.west) / whole.dx);
+      for (std::size_t c = first; c < first + part.n_columns; ++c)
         {
           const auto value = number(words[c]);
           AssertThrow(value.has_value(),
@@ -288,9 +296,11 @@ namespace talus
                                    c + 1,
                                    ", where a number was expected. Correct "
                                    "it.")));
-          raster.values.push_back(*value == raster.nodata
-                                    ? std::numeric_limits<double>::quiet_NaN()
-                                    : *value);
+          // A GIS keeps the mark in single precision, and writes 15 digits of
+          // the mark in the head and 17 in the rows.
+          part.values.push_back(float(*value) == float(part.nodata)
+                                  ? std::numeric_limits<double>::quiet_NaN()
+                                  : *value);
         }
     }
   } // namespace
@@ -328,12 +338,13 @@ namespace talus
   // Line by line, not number by number: a missing value in a row must not shift
   // all later values, since the total number may be right by accident.
   Raster
-  read_esri_grid(const std::filesystem::path &file)
+  read_esri_grid(const std::filesystem::path &file, const RasterPart &part)
   {
     std::ifstream in(file, std::ios::binary);
     Line          line{file, 0, ""};
     Header        header;
-    Raster        raster;
+    Raster        whole, result;
+    std::size_t   n_rows = 0;
     while (std::getline(in, line.content))
       {
         ++line.number;
@@ -341,44 +352,38 @@ namespace talus
           line.content.erase(0, 3); // byte order mark of UTF-8
         if (line.content.find_first_not_of(" \t\r") == std::string::npos)
           continue;
-        if (raster.n_columns == 0)
+        if (whole.n_columns == 0)
           {
             if (read_header_line(line, header))
               continue;
-            raster = georeference(file, header);
+            whole  = georeference(file, header);
+            result = part(whole);
           }
-        read_row(line, raster);
+        read_row(line, n_rows++, whole, result);
       }
-    const std::size_t n_rows =
-      raster.n_columns == 0 ? 0 : raster.values.size() / raster.n_columns;
-    AssertThrow(n_rows > 0 && n_rows == raster.n_rows,
+    AssertThrow(n_rows > 0 && n_rows == whole.n_rows,
                 ExcUser(text("The raster '",
                              file.string(),
                              "' has ",
                              n_rows,
                              " rows of values, where ",
-                             raster.n_columns == 0
+                             whole.n_columns == 0
                                ? "an Esri ASCII grid"
-                               : text(raster.n_rows, " (nrows)"),
+                               : text(whole.n_rows, " (nrows)"),
                              " was expected. The file may be cut off: fetch "
                              "or make it anew.")));
-    return raster;
+    return result;
   }
 
 
 
-  namespace
+  std::string
+  shortest(const double value)
   {
-    /// Return the shortest text that is read as the same number.
-    std::string
-    shortest(const double value)
-    {
-      char       digits[32];
-      const auto written =
-        std::to_chars(digits, digits + sizeof(digits), value);
-      return std::string(digits, written.ptr);
-    }
-  } // namespace
+    char       digits[32];
+    const auto written = std::to_chars(digits, digits + sizeof(digits), value);
+    return std::string(digits, written.ptr);
+  }
 
 
 

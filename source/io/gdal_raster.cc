@@ -3,6 +3,7 @@
 #include <talus/io/coordinate_system.h>
 #include <talus/io/gdal.h>
 #include <talus/io/gdal_raster.h>
+#include <talus/io/length_unit.h>
 
 #include <algorithm>
 #include <array>
@@ -49,6 +50,15 @@ namespace talus
 
 
 
+    /// Return whether a file states no unit. GMT writes user_x_unit.
+    bool
+    is_unstated(const std::string &unit)
+    {
+      return unit.empty() || unit.rfind("user_", 0) == 0;
+    }
+
+
+
     /// Single band of a file.
     class GdalBand
     {
@@ -59,10 +69,10 @@ namespace talus
       Raster
       frame() const;
 
-      /// Read the values row by row from the north: packed numbers are
-      /// unpacked, and cells without a datum become NaN.
+      /// Read the values of @p part row by row from the north: packed numbers
+      /// are unpacked, and cells without a datum become NaN.
       std::vector<double>
-      values(const Raster &frame) const;
+      values(const Raster &part) const;
 
     private:
       void
@@ -75,7 +85,7 @@ namespace talus
       void
       open_part();
       void
-      check_axes(unsigned int n_columns, unsigned int n_rows) const;
+      check_axes(const Raster &frame) const;
 
       const std::filesystem::path path_;
       const QuietGdal             quiet_;
@@ -148,17 +158,17 @@ namespace talus
 
     /// Check all coordinates of netCDF axes. GDAL compares only the first, a
     /// middle and the last spacing; the raster would be stretched where a row
-    /// is missing.
+    /// is missing. Without a coordinate system GDAL drops the units of axes.
     void
-    GdalBand::check_axes(const unsigned int n_columns,
-                         const unsigned int n_rows) const
+    GdalBand::check_axes(const Raster &frame) const
     {
       const GDALDatasetUniquePtr file(
         GDALDataset::Open(path_.c_str(), GDAL_OF_MULTIDIM_RASTER));
       if (file == nullptr)
         return;
       for (const auto &axis : file->GetRootGroup()->GetDimensions())
-        if (axis->GetSize() == n_columns || axis->GetSize() == n_rows)
+        if (axis->GetSize() == frame.n_columns ||
+            axis->GetSize() == frame.n_rows)
           {
             const auto values = axis->GetIndexingVariable();
             double     first = 0., step = 0.;
@@ -166,6 +176,14 @@ namespace talus
                   "has coordinates '" + axis->GetName() +
                     "' that are not evenly spaced. Resample the raster by "
                     "gdalwarp, or add the missing rows.");
+            const std::string unit =
+              values == nullptr || !frame.coordinate_system.empty()
+                ? ""
+                : values->GetUnit();
+            check(is_unstated(unit) || length_of_unit(unit) == 1.,
+                  "has coordinates '" + axis->GetName() + "' in '" + unit +
+                    "', where metres were expected. Convert the coordinates "
+                    "and their attribute units.");
           }
     }
 
@@ -188,49 +206,57 @@ namespace talus
       result.coordinate_system = coordinate_system(*file_);
       result.n_columns         = file_->GetRasterXSize();
       result.n_rows            = file_->GetRasterYSize();
-      check_axes(result.n_columns, result.n_rows);
+      if (!is_unstated(band_->GetUnitType()))
+        result.unit = band_->GetUnitType();
+      check_axes(result);
       result.dx    = t[1];
       result.dy    = std::abs(t[5]);
       result.west  = t[0];
       result.south = std::min(t[3], t[3] + result.n_rows * t[5]);
-      check(double(result.n_columns) * result.n_rows < 1e9,
-            text("has ",
-                 result.n_columns,
-                 " x ",
-                 result.n_rows,
-                 " values, where up to a thousand millions can be read. Cut "
-                 "out the part you need: gdalwarp -te WEST SOUTH EAST NORTH IN "
-                 "OUT.tif."));
       return result;
     }
 
 
 
     std::vector<double>
-    GdalBand::values(const Raster &frame) const
+    GdalBand::values(const Raster &part) const
     {
-      const int                  n = frame.n_columns, m = frame.n_rows;
-      std::vector<double>        result(std::size_t(n) * m);
+      const int n = part.n_columns, m = part.n_rows;
+      check(double(n) * m < 1e9,
+            text("has ",
+                 n,
+                 " x ",
+                 m,
+                 " values at the mesh, where up to a thousand millions can be "
+                 "read. Cut out the part you need: gdalwarp -te WEST SOUTH "
+                 "EAST NORTH IN OUT.tif."));
+      std::array<double, 6> t{};
+      file_->GetGeoTransform(t.data());
+      const double        edge = part.south + (t[5] > 0. ? 0. : m * part.dy);
+      const int           x    = std::lround((part.west - t[0]) / t[1]);
+      const int           y    = std::lround((edge - t[3]) / t[5]);
+      std::vector<double> result(std::size_t(n) * m);
       std::vector<unsigned char> is_known(result.size());
       const auto                 read = [&](GDALRasterBand *const band,
                             void *const           data,
                             const GDALDataType    type) {
         check(
           band->RasterIO(
-            GF_Read, 0, 0, n, m, data, n, m, type, 0, 0, nullptr) == CE_None,
+            GF_Read, x, y, n, m, data, n, m, type, 0, 0, nullptr) == CE_None,
           text("cannot be read (", CPLGetLastErrorMsg(), "). Fetch it anew."));
       };
       read(band_, result.data(), GDT_Float64);
       read(band_->GetMaskBand(), is_known.data(), GDT_Byte);
       const double scale = band_->GetScale(), offset = band_->GetOffset();
       const bool   is_packed = (scale != 1. || offset != 0.);
+      int          has_mark  = 0;
+      // A file may declare the mark in double and hold it in single precision.
+      const float mark = band_->GetNoDataValue(&has_mark);
       for (std::size_t i = 0; i < result.size(); ++i)
-        if (is_known[i] == 0)
+        if (is_known[i] == 0 || (has_mark && float(result[i]) == mark))
           result[i] = std::numeric_limits<double>::quiet_NaN();
         else if (is_packed) // 1 * -0 + 0 is 0, not -0
           result[i] = scale * result[i] + offset;
-      std::array<double, 6> t{};
-      file_->GetGeoTransform(t.data());
       if (t[5] > 0.) // from the south
         for (int r = 0; r < m / 2; ++r)
           std::swap_ranges(result.begin() + std::size_t(n) * r,
@@ -243,10 +269,10 @@ namespace talus
 
 
   Raster
-  read_gdal_raster(const std::filesystem::path &file)
+  read_gdal_raster(const std::filesystem::path &file, const RasterPart &part)
   {
     const GdalBand band(file);
-    Raster         raster = band.frame();
+    Raster         raster = part(band.frame());
     raster.values         = band.values(raster);
     return raster;
   }

@@ -2,8 +2,11 @@
 #include <talus/base/errors.h>
 #include <talus/io/coordinate_system.h>
 #include <talus/io/geojson.h>
+#include <talus/io/text_file.h>
 
 #include <boost/property_tree/json_parser.hpp>
+
+#include <sstream>
 
 namespace talus
 {
@@ -94,13 +97,18 @@ namespace talus
   MapFeatures
   read_geojson(const std::filesystem::path &path)
   {
-    const std::string file = "The file '" + path.string() + "' ";
-    MapFeatures       result;
+    const std::string file    = "The file '" + path.string() + "' ";
+    const auto        content = read_text_file(path);
+    AssertThrow(content.has_value(),
+                ExcUser(file + "cannot be read. Give the path of an existing "
+                               "file."));
+    MapFeatures result;
     try
       {
-        Tree              tree;
-        std::vector<Tree> polygons, lines;
-        boost::property_tree::read_json(path.string(), tree);
+        Tree               tree;
+        std::vector<Tree>  polygons, lines;
+        std::istringstream in(*content);
+        boost::property_tree::read_json(in, tree);
         collect("Polygon", tree, polygons);
         collect("LineString", tree, lines);
         for (const Tree &polygon : polygons)

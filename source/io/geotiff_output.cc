@@ -52,13 +52,9 @@ namespace talus
     bool
     fill(GDALDataset &dataset, const Raster &raster)
     {
-      std::array<double, 6> frame  = {{raster.west,
-                                       raster.dx,
-                                       0.,
-                                       raster.south + raster.n_rows * raster.dy,
-                                       0.,
-                                       -raster.dy}};
-      std::vector<double>   values = raster.values;
+      std::array<double, 6> frame = {
+        {raster.west, raster.dx, 0., raster.north(), 0., -raster.dy}};
+      std::vector<double> values = raster.values;
       for (double &value : values)
         if (std::isnan(value))
           value = raster.nodata;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/io/coordinate_system.h>
 #include <talus/io/esri_grid.h>
 #include <talus/io/gdal_features.h>
 #include <talus/io/geojson.h>
 #include <talus/io/map_outline.h>
+#include <talus/io/raster_file.h>
 
 namespace talus
 {
@@ -24,7 +26,14 @@ namespace talus
     MapFeatures
     read_features(const std::filesystem::path &file)
     {
-      return is_geojson(file) ? read_geojson(file) : read_gdal_features(file);
+      MapFeatures found =
+        is_geojson(file) ? read_geojson(file) : read_gdal_features(file);
+      // GDAL leaves out a system that it does not understand.
+      if (found.coordinate_system.empty())
+        found.coordinate_system = systems_beside(file).coordinate_system;
+      check_understood(found.coordinate_system,
+                       "The file '" + file.string() + "'");
+      return found;
     }
   } // namespace
 

@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/base/shell.h>
 #include <talus/io/coordinate_system.h>
 #include <talus/io/esri_grid.h>
 #include <talus/io/gdal_raster.h>
+#include <talus/io/length_unit.h>
 #include <talus/io/raster_file.h>
+#include <talus/io/text_file.h>
 #include <talus/io/utm_zone.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <boost/algorithm/string/case_conv.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -34,50 +42,84 @@ namespace talus
 
 
 
-    /// Return the coordinate system of a raster whose format has no place for
-    /// it, from the file of the same name with the ending .prj, as in a GIS.
-    /// Empty if there is none.
-    std::string
-    system_beside(std::filesystem::path file)
+    /// Return the unit of the heights, m: of the values or of the vertical
+    /// axis, which is removed from the coordinate system.
+    double
+    unit_of_heights(const std::filesystem::path &file, Raster &raster)
     {
-      std::ifstream     in(file.replace_extension(".prj"), std::ios::binary);
-      std::string       words(65536, '\0');
-      const std::string blanks = " \t\r\n";
-      in.read(words.data(), words.size());
-      words.resize(in.gcount());
-      words.erase(words.find_last_not_of(blanks) + 1);
-      words.erase(0, std::min(words.find_first_not_of(blanks), words.size()));
-      return words;
+      const double axis   = strip_vertical_axis(raster.coordinate_system);
+      const double stated = length_of_unit(raster.unit);
+      const auto   check  = [&file](const bool success, const auto &...words) {
+        AssertThrow(success,
+                    ExcUser(
+                      text("The raster '", file.string(), "' has ", words...)));
+      };
+      check(axis >= 0.,
+            "a vertical axis that points down, where heights were expected. "
+            "Turn the sign: gdal_calc.py -A IN --calc=-A --outfile=OUT.tif.");
+      check(raster.unit.empty() || stated > 0.,
+            "heights in '",
+            raster.unit,
+            "', where metres, feet, US survey feet, or fathoms were expected. "
+            "Convert the heights, or correct the unit: gdal_edit.py -units m "
+            "FILE.");
+      check(axis == 0. || stated == 0. || std::abs(axis / stated - 1.) < 1e-9,
+            "heights in '",
+            raster.unit,
+            "', but a vertical axis with a unit of ",
+            axis,
+            " m. Correct one of the two: gdal_edit.py -units UNIT FILE.");
+      return stated > 0. ? stated : axis > 0. ? axis : 1.;
     }
 
 
 
-    /// Refuse implausible numbers. A number such as 9.97e36 may mark cells
-    /// without a datum, without a declaration in the file, and would be taken
-    /// for a mountain. Squares of coordinates must not overflow.
-    void
-    check_magnitudes(const std::filesystem::path &file, const Raster &raster)
+    /// Return whether a number of the file, in units of @p unit, m, marks cells
+    /// without a datum, though the file does not declare the mark, and would be
+    /// taken for a height: a customary mark, or a height that no place has. The
+    /// deepest place of the Earth has -10 935 m.
+    bool
+    is_mark(const double number, const double unit)
     {
-      const auto        it = std::find_if(raster.values.begin(),
-                                   raster.values.end(),
-                                   [](const double height) {
-                                     return std::abs(height) > 1e6;
-                                   });
-      const std::size_t i  = it - raster.values.begin();
-      AssertThrow(
-        it == raster.values.end(),
-        ExcUser(text("The raster '",
-                     file.string(),
-                     "' has the height ",
-                     *it,
-                     " m in row ",
-                     i / raster.n_columns + 1,
-                     ", column ",
-                     i % raster.n_columns + 1,
-                     ". If the number marks cells without a datum, declare the "
-                     "mark in the head of the file: nodata_value ",
-                     *it,
-                     ".")));
+      for (const double customary : {-9999., 9999., 32767., 99999.})
+        if (number == customary)
+          return true;
+      return number * unit < -12e3 || number * unit > 1e6;
+    }
+
+
+
+    /// Refuse implausible numbers. Squares of coordinates must not overflow.
+    void
+    check_magnitudes(const std::filesystem::path &file,
+                     const Raster                &raster,
+                     const double                 unit)
+    {
+      const auto [lowest, highest] = range_of(raster.values);
+      AssertThrow(lowest <= highest,
+                  ExcUser("The raster '" + file.string() +
+                          "' has no value at the mesh. Give another raster, or "
+                          "move the mesh ('Grid/Origin', 'Section')."));
+      for (const double mark : {lowest, highest})
+        AssertThrow(!is_mark(mark, unit),
+                    ExcUser(
+                      text("The raster '",
+                           file.string(),
+                           "' has heights from ",
+                           lowest * unit,
+                           " to ",
+                           highest * unit,
+                           " m: is ",
+                           shortest(mark),
+                           " a value for no data that the raster does "
+                           "not declare? Declare the value: nodata_value ",
+                           shortest(mark),
+                           " in the head of an Esri ASCII grid, or "
+                           "gdal_edit.py -a_nodata ",
+                           shortest(mark),
+                           ' ',
+                           for_shell(file.string()),
+                           ".")));
       const double farthest = std::max({std::abs(raster.west),
                                         std::abs(raster.south),
                                         raster.n_columns * raster.dx,
@@ -121,7 +163,7 @@ namespace talus
                   map,
                   unit == MapUnit::other ? "" : text(" -tr ", size, ' ', size),
                   " -r cubic ",
-                  file.string(),
+                  for_shell(file.string()),
                   " out.tif && gdal_translate -of AAIGrid out.tif out.asc");
     }
 
@@ -131,9 +173,7 @@ namespace talus
     UtmZone
     zone_of(const Raster &raster)
     {
-      std::vector<Point<2>> middle = {
-        Point<2>(raster.west + 0.5 * raster.n_columns * raster.dx,
-                 raster.south + 0.5 * raster.n_rows * raster.dy)};
+      std::vector<Point<2>> middle = {raster.middle()};
       if (map_unit(raster.coordinate_system) == MapUnit::other)
         MapTransformation(raster.coordinate_system, wgs_84).transform(middle);
       return utm_zone(middle[0][0], middle[0][1]);
@@ -143,18 +183,45 @@ namespace talus
 
 
   Raster
-  read_raster(const std::filesystem::path &file)
+  systems_beside(std::filesystem::path file)
+  {
+    Raster     result;
+    const auto words         = read_text_file(file.replace_extension(".prj"));
+    result.coordinate_system = Utilities::trim(words.value_or(""));
+    check_understood(result.coordinate_system,
+                     "The file '" + file.string() + "'");
+    // A line of old files: Zunits FEET.
+    std::istringstream in(boost::to_lower_copy(result.coordinate_system));
+    for (std::string word, unit; in >> word;)
+      if (word == "zunits" && in >> unit && unit != "no")
+        result.unit = unit;
+    return result;
+  }
+
+
+
+  Raster
+  read_raster(const std::filesystem::path &file, const RasterPart &part)
   {
     check_readable(file);
-    Raster raster;
-    if (is_esri_grid(file))
-      {
-        raster                   = read_esri_grid(file);
-        raster.coordinate_system = system_beside(file);
-      }
-    else
-      raster = read_gdal_raster(file);
-    check_magnitudes(file, raster);
+    const RasterPart placed = [&](Raster whole) {
+      if (whole.coordinate_system.empty())
+        {
+          const Raster beside     = systems_beside(file);
+          whole.coordinate_system = beside.coordinate_system;
+          if (whole.unit.empty())
+            whole.unit = beside.unit;
+        }
+      return part(whole);
+    };
+    Raster       raster = is_esri_grid(file) ? read_esri_grid(file, placed)
+                                             : read_gdal_raster(file, placed);
+    const double unit   = unit_of_heights(file, raster);
+    check_magnitudes(file, raster, unit);
+    if (unit != 1.)
+      for (double &height : raster.values)
+        height *= unit;
+    raster.unit.clear();
     return raster;
   }
 
@@ -182,7 +249,7 @@ namespace talus
              " wide, and it reaches from ",
              raster.west,
              " to ",
-             raster.west + raster.n_columns * raster.dx,
+             raster.east(),
              ". A map in metres was expected. ",
              is_built_with_gdal()
                ? "Set `Projection` = " + zone.name() +

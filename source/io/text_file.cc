@@ -2,11 +2,33 @@
 #include <talus/base/errors.h>
 #include <talus/io/text_file.h>
 
+#include <boost/locale/utf.hpp>
+
+#include <algorithm>
 #include <fstream>
 #include <vector>
 
 namespace talus
 {
+  // Tools read the record of the parameters as UTF-8, after the run.
+  void
+  check_utf8(const std::string &name, const std::string &content)
+  {
+    using Utf8 = boost::locale::utf::utf_traits<char>;
+    for (auto at = content.begin(); at != content.end();)
+      {
+        const auto begin = at;
+        AssertThrow(boost::locale::utf::is_valid_codepoint(
+                      Utf8::decode(at, content.end())),
+                    ExcUser(text(name,
+                                 ", line ",
+                                 std::count(content.begin(), begin, '\n') + 1,
+                                 ", is not UTF-8. Save the text as UTF-8.")));
+      }
+  }
+
+
+
   // The type of the file is checked before opening: opening a pipe waits for a
   // writer. A pipe or a sparse file may have more bytes than the memory, hence
   // the limit.
@@ -37,6 +59,9 @@ namespace talus
       }
     if (!in.eof())
       return {};
+    if (content.rfind("\xef\xbb\xbf", 0) == 0)
+      content.erase(0, 3); // byte order mark of UTF-8
+    check_utf8("The file '" + file.string() + "'", content);
     return content;
   }
 } // namespace talus

@@ -7,6 +7,8 @@
 #include <talus/io/gdal_raster.h>
 #include <talus/io/surface_motion.h>
 
+#include <boost/algorithm/string/predicate.hpp>
+
 namespace talus
 {
   using namespace dealii;
@@ -35,14 +37,42 @@ namespace talus
 
 
 
-  // Well-known text of degrees begins with GEOGCS or GEOGCRS.
+  // Well-known text of degrees begins with GEOGCS or GEOGCRS. The words foot
+  // and feet are the only units besides metres that surveys use.
   MapUnit
   map_unit(const std::string &coordinate_system)
   {
+    for (const std::string unit : {"foot", "feet"})
+      if (boost::icontains(coordinate_system, unit))
+        return MapUnit::other;
     return coordinate_system == wgs_84 ||
                coordinate_system.rfind("GEOG", 0) == 0
              ? MapUnit::degrees
              : MapUnit::unknown;
+  }
+
+
+
+  // Names of the registry and well-known text.
+  void
+  check_understood(const std::string &coordinate_system,
+                   const std::string &file)
+  {
+    if (!coordinate_system.empty() &&
+        coordinate_system.find(':') == std::string::npos &&
+        coordinate_system.find('[') == std::string::npos)
+      refuse_without_gdal(file + " has the coordinate system '" +
+                            coordinate_system.substr(0, 60) +
+                            "', which is no well-known text",
+                          "Write the system as well-known text.");
+  }
+
+
+
+  double
+  strip_vertical_axis(std::string &)
+  {
+    return 0.;
   }
 
 
@@ -74,7 +104,7 @@ namespace talus
 
 
   Raster
-  read_gdal_raster(const std::filesystem::path &file)
+  read_gdal_raster(const std::filesystem::path &file, const RasterPart &)
   {
     refuse_without_gdal("The raster '" + file.string() +
                           "' is no Esri ASCII grid, which begins with ncols or "

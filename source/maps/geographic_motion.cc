@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/box.h>
 #include <talus/base/errors.h>
 #include <talus/io/coordinate_system.h>
 #include <talus/maps/geographic_motion.h>
@@ -21,9 +22,7 @@ namespace talus
     std::vector<Point<2>>
     outline_in_degrees(const Raster &frame, const std::string &map)
     {
-      std::vector<Point<2>> places = {
-        {frame.west + 0.5 * frame.n_columns * frame.dx,
-         frame.south + 0.5 * frame.n_rows * frame.dy}};
+      std::vector<Point<2>> places = {frame.middle()};
       for (unsigned int i = 0; i < frame.n_columns; ++i)
         for (const unsigned int j : {0u, frame.n_rows - 1})
           places.emplace_back(frame.x(i), frame.y(j));
@@ -51,12 +50,11 @@ namespace talus
     frame_in_degrees(const Raster &frame, const std::string &map)
     {
       // Degrees of a cell, by the motion of the middle over one cell.
-      Point<2> middle(frame.west + 0.5 * frame.n_columns * frame.dx,
-                      frame.south + 0.5 * frame.n_rows * frame.dy);
-      std::vector<Point<2>> cross = {{middle[0] - 0.5 * frame.dx, middle[1]},
-                                     {middle[0] + 0.5 * frame.dx, middle[1]},
-                                     {middle[0], middle[1] - 0.5 * frame.dy},
-                                     {middle[0], middle[1] + 0.5 * frame.dy}};
+      const Point<2>        middle = frame.middle();
+      std::vector<Point<2>> cross  = {{middle[0] - 0.5 * frame.dx, middle[1]},
+                                      {middle[0] + 0.5 * frame.dx, middle[1]},
+                                      {middle[0], middle[1] - 0.5 * frame.dy},
+                                      {middle[0], middle[1] + 0.5 * frame.dy}};
       MapTransformation(map, wgs_84).transform(cross);
       // Lengths of both sides in units of a degree of latitude, whatever the
       // angle between map and meridian.
@@ -67,15 +65,9 @@ namespace talus
                             shrink,
                           cross[i + 1][1] - cross[i][1]);
       };
-      const auto   places = outline_in_degrees(frame, map);
-      const double shrink = std::cos(places[0][1] * numbers::PI / 180.);
-      Point<2>     lower = places[0], upper = places[0];
-      for (const Point<2> &place : places)
-        for (unsigned int d = 0; d < 2; ++d)
-          {
-            lower[d] = std::min(lower[d], place[d]);
-            upper[d] = std::max(upper[d], place[d]);
-          }
+      const auto   places       = outline_in_degrees(frame, map);
+      const double shrink       = std::cos(places[0][1] * numbers::PI / 180.);
+      const auto [lower, upper] = bounding_box(places);
       Raster result;
       result.dx        = length(0) / shrink;
       result.dy        = length(2);

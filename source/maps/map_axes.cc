@@ -31,9 +31,7 @@ namespace talus
             const Point<3> &origin = problem.origin();
             axis.size              = (a == 0 ? raster->dx : raster->dy);
             axis.lower =
-              a == 0
-                ? raster->west - origin[0]
-                : origin[1] - (raster->south + raster->n_rows * raster->dy);
+              a == 0 ? raster->west - origin[0] : origin[1] - raster->north();
           }
         if (cell_size > 0)
           axis.size = cell_size;

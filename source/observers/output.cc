@@ -4,6 +4,7 @@
 #include <talus/io/files.h>
 #include <talus/io/output_folder.h>
 #include <talus/io/run_record.h>
+#include <talus/io/text_file.h>
 #include <talus/observers/grid_output.h>
 #include <talus/observers/output.h>
 #include <talus/observers/phase_times.h>
@@ -143,6 +144,7 @@ namespace talus
                         "break), a '#', a '{' or a '\\' at the end, which "
                         "parameters.prm cannot hold. Choose another name with "
                         "Output/Folder or --output."));
+    check_utf8("The name of the output folder", folder_);
     AssertThrow(local_damping == 0 || !settings_.write_runout,
                 ExcUser(text("'Damping/Local damping' is ",
                              local_damping,

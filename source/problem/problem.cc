@@ -55,12 +55,12 @@ namespace talus
   /// exist before the first point.
   template <int dim>
   void
-  Problem<dim>::prepare(Points<dim>    &points,
-                        const bool      changes_strength,
-                        const double    end_time,
-                        const Point<3> &origin)
+  Problem<dim>::prepare(Points<dim>     &points,
+                        const bool       changes_strength,
+                        const double     end_time,
+                        const Grid<dim> &grid)
   {
-    inputs_.prepare(origin);
+    inputs_.prepare(grid.origin(), grid.box_of_parameters());
     bodies_.use_surfaces(inputs_.surfaces);
     const std::vector<std::string> names = bodies_.names();
     materials.assign(names, bodies_.names_of_materials());

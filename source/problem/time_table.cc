@@ -73,8 +73,6 @@ namespace talus
     for (std::string line; std::getline(in, line);)
       {
         ++number;
-        if (number == 1 && line.rfind("\xef\xbb\xbf", 0) == 0)
-          line.erase(0, 3); // byte order mark of UTF-8
         line = Utilities::trim(line);
         if (line.empty() || line[0] == '#')
           continue;

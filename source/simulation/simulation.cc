@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/base/interrupt.h>
+#include <talus/base/shell.h>
 #include <talus/checkpoint/parameter_changes.h>
 #include <talus/io/output_folder.h>
 #include <talus/io/run_record.h>
@@ -125,7 +126,7 @@ namespace talus
     problem_.prepare(state_.points,
                      static_stages_.stages().contain(Stage::strength_reduction),
                      end_time_,
-                     state_.grid.origin());
+                     state_.grid);
     static_stages_.check();
     transfer_.use_bbar(problem_.bodies_with_bbar());
     state_.constants.box_shape  = transfer_.box_shape();
@@ -281,7 +282,8 @@ namespace talus
     output_.check_complete(state_.communicator());
     const std::string remarks = log_.count_of_remarks();
     log_.say(remarks.empty() ? LogLevel::info : LogLevel::result,
-             "A report of this run: talus-report " + output_.folder() +
+             "A report of this run: talus-report " +
+               for_shell(output_.folder()) +
                (remarks.empty() ? "" : " (" + remarks + ")"));
   }
 

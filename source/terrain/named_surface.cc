@@ -177,10 +177,12 @@ namespace talus
 
 
 
-  /// Read the raster, and project the raster if there is a map.
+  /// Read the raster around @p plan on the map, and project the raster if there
+  /// is a map.
   template <int dim>
   Raster
-  NamedSurface<dim>::read_file(const std::filesystem::path &file) const
+  NamedSurface<dim>::read_file(const std::filesystem::path &file,
+                               const Box<2>                &plan) const
   {
     AssertThrow(!projection_.empty() || cell_size_ == 0.,
                 ExcUser(text(path("Cell size"),
@@ -190,16 +192,18 @@ namespace talus
                              "there is a `Projection`. Remove the entry.")));
     const std::string map = this->map();
     protect_input(file);
-    Raster raster = read_raster(file);
-    AssertThrow(raster.n_columns >= 2 && raster.n_rows >= 2,
-                ExcUser(text("The raster '",
-                             file_,
-                             "' has ",
-                             raster.n_rows,
-                             " rows and ",
-                             raster.n_columns,
-                             " columns, but a surface needs two of both.")));
-    check_projection(file, raster, map);
+    Raster raster = read_raster(file, [&](const Raster &whole) {
+      AssertThrow(whole.n_columns >= 2 && whole.n_rows >= 2,
+                  ExcUser(text("The raster '",
+                               file_,
+                               "' has ",
+                               whole.n_rows,
+                               " rows and ",
+                               whole.n_columns,
+                               " columns, but a surface needs two of both.")));
+      check_projection(file, whole, map);
+      return part_around(whole, plan, map);
+    });
     return map.empty()
              ? raster
              : project_raster(std::move(raster),
@@ -303,17 +307,62 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Return the box around the mesh on the map, m.
+    Box<2>
+    plan_of(const Box<3>   &mesh,
+            const Point<3> &origin,
+            const std::vector<Point<2>> & /*section*/)
+    {
+      return {Point<2>(origin[0] + mesh.lower[0], origin[1] - mesh.upper[2]),
+              Point<2>(origin[0] + mesh.upper[0], origin[1] - mesh.lower[2])};
+    }
+
+
+
+    /// In 2-D: the box around the part of the section in the mesh.
+    Box<2>
+    plan_of(const Box<2> &mesh,
+            const Point<3> & /*origin*/,
+            const std::vector<Point<2>> &section)
+    {
+      std::vector<Point<2>> places;
+      double                length = 0.;
+      for (std::size_t i = 1; i < section.size(); ++i)
+        {
+          const Tensor<1, 2> leg = section[i] - section[i - 1];
+          const double       end = length + leg.norm();
+          // The first and the last leg are endless.
+          const double from =
+            i == 1 ? mesh.lower[0] : std::max(mesh.lower[0], length);
+          const double to = i + 1 == section.size()
+                              ? mesh.upper[0]
+                              : std::min(mesh.upper[0], end);
+          for (const double x : {from, to})
+            if (from <= to)
+              places.push_back(section[i - 1] +
+                               (x - length) / leg.norm() * leg);
+          length = end;
+        }
+      return bounding_box(places);
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::shared_ptr<const Surface<dim>>
   NamedSurface<dim>::read(const std::filesystem::path &folder,
-                          const Point<3>              &origin) const
+                          const Point<3>              &origin,
+                          const Box<dim>              &mesh) const
   {
     if (!outline_.empty())
       return read_outline(origin);
     if (is_outline_file(file(folder)))
       return read_outline_file(file(folder), origin);
     const auto corners = section();
-    Raster     raster  = read_file(file(folder));
+    Raster     raster = read_file(file(folder), plan_of(mesh, origin, corners));
     return std::make_shared<Terrain<dim>>(std::make_shared<const HeightField>(
                                             std::move(raster)),
                                           file_,

@@ -102,25 +102,14 @@ namespace talus
     std::vector<Point<2>>
     outline(const Raster &raster)
     {
-      const double          east  = raster.west + raster.n_columns * raster.dx;
-      const double          north = raster.south + raster.n_rows * raster.dy;
       std::vector<Point<2>> result;
       for (unsigned int i = 0; i <= raster.n_columns; ++i)
-        for (const double y : {raster.south, north})
+        for (const double y : {raster.south, raster.north()})
           result.emplace_back(raster.west + i * raster.dx, y);
       for (unsigned int i = 0; i <= raster.n_rows; ++i)
-        for (const double x : {raster.west, east})
+        for (const double x : {raster.west, raster.east()})
           result.emplace_back(x, raster.south + i * raster.dy);
       return result;
-    }
-
-
-
-    Point<2>
-    middle(const Raster &raster)
-    {
-      return {raster.west + 0.5 * raster.n_columns * raster.dx,
-              raster.south + 0.5 * raster.n_rows * raster.dy};
     }
 
 
@@ -129,8 +118,8 @@ namespace talus
     void
     check_degrees(const Raster &raster, const std::string &place)
     {
-      const double east  = raster.west + raster.n_columns * raster.dx;
-      const double north = raster.south + raster.n_rows * raster.dy;
+      const double east  = raster.east();
+      const double north = raster.north();
       const double slack = raster.dx; // half a cell beyond the poles
       AssertThrow(
         std::max(std::abs(raster.west), std::abs(east)) <= 360. + slack &&
@@ -159,7 +148,7 @@ namespace talus
     {
       const auto            sizes = cell_sizes(raster, transformation, places);
       std::vector<Point<2>> on_globe = places;
-      on_globe.push_back(middle(raster));
+      on_globe.push_back(raster.middle());
       transformation.to_degrees.transform(on_globe);
       for (std::size_t i = 0; i < places.size(); ++i)
         AssertThrow(
@@ -188,13 +177,7 @@ namespace talus
           const double                 spacing,
           const std::string           &place)
     {
-      Point<2> lower = corners.front(), upper = lower;
-      for (const Point<2> &corner : corners)
-        for (unsigned int d = 0; d < 2; ++d)
-          {
-            lower[d] = std::min(lower[d], corner[d]);
-            upper[d] = std::max(upper[d], corner[d]);
-          }
+      const auto [lower, upper] = bounding_box(corners);
       Raster result;
       result.dx = result.dy  = spacing;
       result.west            = spacing * std::floor(lower[0] / spacing);
@@ -239,7 +222,7 @@ namespace talus
     const bool is_in_degrees =
       map_unit(raster.coordinate_system) == MapUnit::degrees;
     const ToMap    transformation(raster, map);
-    const Point<2> centre = middle(raster);
+    const Point<2> centre = raster.middle();
     auto           edge   = outline(raster);
     edge.push_back(centre);
     check_scale(raster, transformation, edge, place);
@@ -266,6 +249,73 @@ namespace talus
               value ? value->height : std::numeric_limits<double>::quiet_NaN());
           }
       }
+    return result;
+  }
+
+
+
+  namespace
+  {
+    /// Return the bounding box of places on the edge of @p box in the
+    /// coordinates of @p raster.
+    Box<2>
+    on_raster(const Box<2> &box, const Raster &raster, const std::string &map)
+    {
+      constexpr unsigned int n = 32; // edges are bent
+      Raster                 edge;
+      edge.n_columns = edge.n_rows = n;
+      edge.west                    = box.lower[0];
+      edge.south                   = box.lower[1];
+      edge.dx                      = box.length(0) / n;
+      edge.dy                      = box.length(1) / n;
+      auto              places     = outline(edge);
+      const std::string system =
+        raster.coordinate_system.empty() ? wgs_84 : raster.coordinate_system;
+      const bool turns = !map.empty() && map_unit(system) == MapUnit::degrees;
+      if (!map.empty())
+        MapTransformation(map, system).transform(places);
+      for (Point<2> &x : places)
+        if (turns)
+          x[0] += 360. * std::round((raster.middle()[0] - x[0]) / 360.);
+      return bounding_box(places);
+    }
+  } // namespace
+
+
+
+  Raster
+  part_around(const Raster &whole, const Box<2> &box, const std::string &map)
+  {
+    if (double(whole.n_columns) * whole.n_rows <= 4e6)
+      return whole;
+    const Box<2> needed = on_raster(box, whole, map);
+    // First number and number of cells, from west or south.
+    const auto range = [&](const unsigned int d,
+                           const double       edge,
+                           const double       size,
+                           const double       n) {
+      const double margin = needed.length(d) + 16. * size;
+      const double first =
+        std::clamp(std::floor((needed.lower[d] - margin - edge) / size),
+                   0.,
+                   n - 2.);
+      const double end =
+        std::clamp(std::ceil((needed.upper[d] + margin - edge) / size),
+                   first + 2.,
+                   n);
+      return std::pair<double, double>(first, end - first);
+    };
+    AssertThrow(std::isfinite(needed.length(0) + needed.length(1)),
+                ExcUser("The mesh has corners without a place on the map of a "
+                        "raster. Choose another `Projection`."));
+    const auto [column, n_columns] =
+      range(0, whole.west, whole.dx, whole.n_columns);
+    const auto [row, n_rows] = range(1, whole.south, whole.dy, whole.n_rows);
+    Raster result            = whole;
+    result.west += column * whole.dx;
+    result.south += row * whole.dy;
+    result.n_columns = n_columns;
+    result.n_rows    = n_rows;
     return result;
   }
 } // namespace talus

@@ -87,7 +87,8 @@ namespace talus
   void
   Surfaces<dim>::prepare(const Constants             &constants,
                          const std::filesystem::path &folder,
-                         const Point<3>              &origin)
+                         const Point<3>              &origin,
+                         const Box<dim>              &mesh)
   {
     constants_ = &constants;
     origin_    = origin;
@@ -103,7 +104,7 @@ namespace talus
                                named->is_expression()
                                  ? surface(named->path("Expression"),
                                            named->expression())
-                                 : named->read(folder, origin));
+                                 : named->read(folder, origin, mesh));
         if (named->has_file())
           files_.push_back({"raster of " + named->name(),
                             "raster",
@@ -211,18 +212,34 @@ namespace talus
   {
     std::vector<std::string> result;
     for (const auto &named : named_)
-      if (const Raster *map = raster(named->name());
-          map != nullptr && !named->projection().empty())
+      if (const Raster *map = raster(named->name()))
         {
-          std::ostringstream note;
-          note << std::setprecision(9) << "The raster of "
-               << named->path("File") << " was projected to "
-               << named->projection() << ": " << map->n_columns << " x "
-               << map->n_rows << " cells of " << map->dx << " m, easting from "
-               << map->west << " m to " << map->west + map->n_columns * map->dx
-               << " m, northing from " << map->south << " m to "
-               << map->south + map->n_rows * map->dy << " m.";
-          result.push_back(note.str());
+          const auto [lowest, highest] = range_of(map->values);
+          result.push_back(text("The raster of ",
+                                named->path("File"),
+                                named->projection().empty()
+                                  ? " was read"
+                                  : " was projected to ",
+                                named->projection(),
+                                ": ",
+                                map->n_columns,
+                                " x ",
+                                map->n_rows,
+                                " cells of ",
+                                map->dx,
+                                " m, easting from ",
+                                map->west,
+                                " m to ",
+                                map->east(),
+                                " m, northing from ",
+                                map->south,
+                                " m to ",
+                                map->north(),
+                                " m, heights from ",
+                                lowest,
+                                " m to ",
+                                highest,
+                                " m."));
         }
     return result;
   }

@@ -132,6 +132,33 @@ class BadInput(Case):
             self.refuse_set([f"Bodies/block/Material={value}"],
                             "--set 'Bodies/block/Material'", "backslash", "one line")
 
+    def test_texts_are_utf8(self):
+        """With or without a byte order mark; the tools read nothing else."""
+        file = self.folder / "case.prm"
+        file.write_bytes(b"\xef\xbb\xbf" + GOOD.encode())
+        result = self.run_talus("--output", "marked", file)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for encoding in "cp1252", "utf-16":
+            file.write_bytes((GOOD + "set Title = S\u00e3o Miguel\n").encode(encoding))
+            self.assert_refused(self.run_talus("--output", "results", file), "case.prm', line ",
+                                "32" if encoding == "cp1252" else "1",
+                                "is not UTF-8. Save the text as UTF-8")
+            self.assert_untouched()
+
+    def test_comment_in_a_setting(self):
+        """The value would end at the #."""
+        self.refuse_set(["Output/Folder=o #3"], "--set 'Output/Folder'", "'#'", "comment")
+
+    def test_commands_can_be_pasted(self):
+        result = self.run_file(output="ut & a")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        log = (self.folder / "ut & a/log.txt").read_text()
+        self.assertEqual(shlex.split(re.search("talus-report .*", log)[0])[1], "ut & a")
+
+    def test_path_that_is_too_long(self):
+        self.assert_refused(self.run_file(output="a" * 4100),
+                            "The output folder 'aaa", "...' could not be made (File name too long)")
+
     def test_braces(self):
         """deal.II takes them for a list of variants, and ignores the value."""
         for path, value in (("Gravity/Slope angle", "{8}"), ("End time", "${T}"),

@@ -281,8 +281,10 @@ class BadInputTerrain(Case):
     def test_rasters_of_no_ground(self):
         for content, *words in (
                 (self.HEAD + "1 1 1\n1 9.97e36 1\n1 1 1\n",
-                 "height 9.97e+36 m in row 2, column 2",
+                 "heights from 1 to 9.97e+36 m", "is 9.97e+36 a value for no data",
                  "nodata_value 9.97e+36"),
+                (self.HEAD + "nodata_value 0\n1 1 1\n1 -9999 1\n1 1 1\n",
+                 "heights from -9999 to 1 m", "does not declare?", "nodata_value -9999 in"),
                 (self.HEAD.replace("size 5", "size 1e300") + self.ROWS,
                  "reaches to 3e+300 m", "head"),
                 (self.HEAD.replace("ncols 3", "ncols 1000000000")

@@ -10,6 +10,8 @@ import os
 import re
 import subprocess
 import sys
+import threading
+import time
 import unittest
 
 import numpy
@@ -234,6 +236,8 @@ class Obstacles(FromPython):
         run = self.pipe("components", lambda time: [1])
         self.assert_error("has 1 components .* expected 2", run.advance_to)
         self.assert_error("cannot go on in this object", run.advance_to)
+        run = self.pipe("text", lambda time: "fast")
+        self.assert_error("'pipe'.*is 'fast' at t = .*list of numbers in m/s", run.advance_to)
         run = self.pipe("nan", lambda time: [math.nan, 0])
         self.assert_error("'pipe'.*nan.*at most 1e6", run.advance_to)
         run = self.pipe("raises", lambda time: [1 / 0, 0])
@@ -266,6 +270,7 @@ class Refused(FromPython):
         self.assert_error("advances the run", run.advance_to, 0.2, lambda r: r.advance_to())
         self.assert_error("belongs to another run",
                           lambda: self.run_of("used", overwrite=True).advance_to())
+        self.assert_error("the time nan", run.advance_to, math.nan)
         run.advance_to(1)
         run.checkpoint()
         run.close()
@@ -274,6 +279,49 @@ class Refused(FromPython):
         self.assert_error("--overwrite", lambda: self.run_of("used").advance_to())
         with self.run_of("used", overwrite=True) as run:
             run.advance_to(0.1)
+
+
+    def test_calls_of_two_threads(self):
+        """close() waits for the calls of other threads, which then find a closed run."""
+        for name, read in (("statistics", lambda run: run.statistics),
+                           ("accounts", lambda run: run.accounts),
+                           ("checkpoint", lambda run: run.checkpoint()),
+                           ("points", lambda run: run.points["mass"].sum()),
+                           ("close", lambda run: run.close() or run.time)):
+            with self.subTest(name):
+                run = self.run_of(name)
+                run.advance_to(0.01)
+                errors = []
+
+                def loop():
+                    try:
+                        while True:
+                            read(run)
+                    except talus.Error as error:
+                        errors.append(str(error))
+
+                threads = [threading.Thread(target=loop) for i in range(2)]
+                for thread in threads:
+                    thread.start()
+                time.sleep(0.05)
+                run.close()
+                for thread in threads:
+                    thread.join(60)
+                self.assertEqual(len(errors), 2, errors)
+                for error in errors:
+                    self.assertIn("has been closed", error)
+
+    def test_run_that_advances_in_another_thread(self):
+        run = self.run_of("advances")
+        begun = threading.Event()
+        thread = threading.Thread(target=run.advance_to, args=(2, lambda r: begun.set()))
+        thread.start()
+        begun.wait(60)
+        for use in (lambda: run.time, lambda: run.statistics, run.checkpoint, run.close,
+                    lambda: run.advance_to(3)):
+            self.assert_error("advances in another thread", use)
+        thread.join()
+        self.assertGreater(run.time, 1.9)
 
 
 class Ranks(FromPython):

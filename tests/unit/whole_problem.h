@@ -40,7 +40,7 @@ namespace
         more);
       ParameterAcceptor::parse_all_parameters();
       grid.check();
-      problem.prepare(points, false, 100., grid.origin());
+      problem.prepare(points, false, 100., grid);
       grid.create({});
       grid.refine();
       grid.prepare();

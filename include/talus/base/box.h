@@ -4,6 +4,9 @@
 
 #include <deal.II/base/point.h>
 
+#include <algorithm>
+#include <vector>
+
 namespace talus
 {
   /// Axis-aligned box, coordinates in m.
@@ -28,6 +31,23 @@ namespace talus
       return upper[d] - lower[d];
     }
   };
+
+
+
+  /// Return the smallest box that contains all of @p places, at least one.
+  template <int dim>
+  Box<dim>
+  bounding_box(const std::vector<dealii::Point<dim>> &places)
+  {
+    Box<dim> box{places[0], places[0]};
+    for (const auto &x : places)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          box.lower[d] = std::min(box.lower[d], x[d]);
+          box.upper[d] = std::max(box.upper[d], x[d]);
+        }
+    return box;
+  }
 } // namespace talus
 
 #endif

@@ -2,8 +2,12 @@
 #ifndef talus_base_raster_h
 #define talus_base_raster_h
 
+#include <deal.II/base/point.h>
+
+#include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace talus
@@ -26,6 +30,8 @@ namespace talus
     /// Coordinate reference system as well-known text or EPSG:NUMBER; empty if
     /// the file does not contain one.
     std::string coordinate_system;
+    /// Unit of the values as the file states the unit; empty for m.
+    std::string unit;
 
     /// Easting of the centre of a column, m.
     double
@@ -41,12 +47,54 @@ namespace talus
       return south + (n_rows - row - 0.5) * dy;
     }
 
+    /// Outer edge of the last column, m.
+    double
+    east() const
+    {
+      return west + n_columns * dx;
+    }
+
+    /// Outer edge of the first row, m.
+    double
+    north() const
+    {
+      return south + n_rows * dy;
+    }
+
+    dealii::Point<2>
+    middle() const
+    {
+      return {west + 0.5 * n_columns * dx, south + 0.5 * n_rows * dy};
+    }
+
     double
     value(const unsigned int column, const unsigned int row) const
     {
       return values[std::size_t(row) * n_columns + column];
     }
   };
+
+
+
+  /// Return the smallest and the largest of @p values, NaN left out.
+  inline std::pair<double, double>
+  range_of(const std::vector<double> &values)
+  {
+    constexpr double          inf = std::numeric_limits<double>::infinity();
+    std::pair<double, double> range(inf, -inf);
+    for (const double value : values)
+      {
+        range.first  = value < range.first ? value : range.first;
+        range.second = value > range.second ? value : range.second;
+      }
+    return range;
+  }
+
+
+
+  /// Choice of the part of a raster that is read: a raster without values to a
+  /// raster whose cells are some of its cells.
+  using RasterPart = std::function<Raster(const Raster &)>;
 } // namespace talus
 
 #endif

@@ -41,6 +41,10 @@ namespace talus
       return origin_;
     }
 
+    /// The box as the parameters have it, in the axes of the mesh.
+    Box<dim>
+    box_of_parameters() const;
+
     /// Box filled by the mesh.
     const Box<dim> &
     domain() const
@@ -148,9 +152,6 @@ namespace talus
     max_n_cells(double n_ranks);
 
   private:
-    /// The box as the parameters have it, in the axes of the mesh.
-    Box<dim>
-    box_of_parameters() const;
     void
     check_lattice(unsigned int level) const;
     void

@@ -40,6 +40,21 @@ namespace talus
 
 
 
+  /// Throw ExcUser, beginning with @p file, if @p coordinate_system is given
+  /// but not understood: the unit of the coordinates would be a guess.
+  void
+  check_understood(const std::string &coordinate_system,
+                   const std::string &file);
+
+
+
+  /// Remove the vertical axis from @p coordinate_system. Return the length of
+  /// the axis' unit, m, negative if the axis points down; 0 without an axis.
+  double
+  strip_vertical_axis(std::string &coordinate_system);
+
+
+
   /// Return the text of a file .prj, by which a GIS knows the map of the raster
   /// beside the file: @p coordinate_system in Esri's dialect of well-known
   /// text. A text unknown to GDAL is returned unchanged; the result is empty

@@ -5,6 +5,7 @@
 #include <talus/base/raster.h>
 
 #include <filesystem>
+#include <string>
 
 namespace talus
 {
@@ -22,9 +23,16 @@ namespace talus
   /// numbers before their keywords, commas or semicolons between numbers,
   /// decimal commas, `nan` as a value or as the mark of missing values. Throws
   /// ExcUser with file and line if a keyword is missing, unknown or repeated, a
-  /// row is too short or too long, or an entry is no number.
+  /// row is too short or too long, or an entry is no number. Only the cells of
+  /// @p part are stored.
   Raster
-  read_esri_grid(const std::filesystem::path &file);
+  read_esri_grid(const std::filesystem::path &file, const RasterPart &part);
+
+
+
+  /// Return the shortest text that is read as the same number.
+  std::string
+  shortest(double value);
 
 
 

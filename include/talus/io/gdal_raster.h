@@ -12,10 +12,10 @@ namespace talus
   /// Read a raster in any format that GDAL reads (GeoTIFF, netCDF): one band of
   /// numbers of any type, with rows along the axes of the map. From a file with
   /// several rasters the raster elevation, z or Band1 is read (names of GEBCO
-  /// and GMT). Throws ExcUser if there is no suitable raster, or if talus was
-  /// built without GDAL.
+  /// and GMT). Only the cells of @p part are read. Throws ExcUser if there is
+  /// no suitable raster, or if talus was built without GDAL.
   Raster
-  read_gdal_raster(const std::filesystem::path &file);
+  read_gdal_raster(const std::filesystem::path &file, const RasterPart &part);
 
 
 

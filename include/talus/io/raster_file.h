@@ -9,12 +9,24 @@
 
 namespace talus
 {
-  /// Read a raster: an Esri ASCII grid, with the coordinate system of the file
-  /// .prj beside it, or any format that GDAL reads. Coordinates are as in the
-  /// file, possibly degrees. Throws ExcUser with the file name if the raster
-  /// cannot be read.
+  /// Return coordinate system and unit of heights of a file that does not state
+  /// them, from the file of the same name with the ending .prj, as in a GIS.
+  /// Both are empty without a file .prj. Throws ExcUser if the coordinate
+  /// system is not understood.
   Raster
-  read_raster(const std::filesystem::path &file);
+  systems_beside(std::filesystem::path file);
+
+
+
+  /// Read a raster: an Esri ASCII grid, with the coordinate system of the file
+  /// .prj beside it, or any format that GDAL reads. Heights are converted to m
+  /// from the unit stated by the file; coordinates are as in the file, possibly
+  /// degrees. Only the cells of @p part are read. Throws ExcUser with the file
+  /// name if the raster cannot be read, or has heights in an unknown unit.
+  Raster
+  read_raster(
+    const std::filesystem::path &file,
+    const RasterPart &part = [](const Raster &whole) { return whole; });
 
 
 

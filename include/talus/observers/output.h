@@ -77,13 +77,6 @@ namespace talus
       return statistics_->evaluate(state, settings_.write_runout);
     }
 
-    /// Averaging window for the forces on obstacles and mesh faces, s.
-    double
-    force_averaging_time() const
-    {
-      return settings_.averaging_time;
-    }
-
     /// Output folder, from the parameter or from set_folder().
     const std::string &
     folder() const

@@ -22,12 +22,12 @@ namespace talus
     {}
 
     /// Read the surfaces. @p origin of the mesh on the map: easting, northing,
-    /// height, m. Throws ExcUser.
+    /// height, m. @p mesh is the box of the mesh. Throws ExcUser.
     void
-    prepare(const dealii::Point<3> &origin)
+    prepare(const dealii::Point<3> &origin, const Box<dim> &mesh)
     {
       constants.values(); // throws, also if no expression needs a constant
-      surfaces.prepare(constants, folder, origin);
+      surfaces.prepare(constants, folder, origin, mesh);
     }
 
     /// Add the files to the state: a resumed run needs the same files.

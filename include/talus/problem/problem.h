@@ -38,12 +38,12 @@ namespace talus
     /// @param changes_strength whether a further object needs the strength
     ///   factor
     /// @param end_time end of the run, s
-    /// @param origin of the mesh on the map: easting, northing, height, m
+    /// @param grid with its parameters, before the cells are made
     void
-    prepare(Points<dim>            &points,
-            bool                    changes_strength,
-            double                  end_time,
-            const dealii::Point<3> &origin);
+    prepare(Points<dim>     &points,
+            bool             changes_strength,
+            double           end_time,
+            const Grid<dim> &grid);
 
     /// Open the accounts of all parts that exchange energy with the soil. Call
     /// after prepare().

@@ -2,6 +2,7 @@
 #ifndef talus_terrain_named_surface_h
 #define talus_terrain_named_surface_h
 
+#include <talus/base/box.h>
 #include <talus/base/raster.h>
 #include <talus/geometry/expression_surface.h>
 #include <talus/geometry/surface.h>
@@ -75,10 +76,12 @@ namespace talus
     check_entries() const;
 
     /// Read the raster, from @p folder, or the outline. @p origin of the mesh
-    /// on the map: easting, northing, height, m. Throws ExcUser.
+    /// on the map: easting, northing, height, m. @p mesh is the box of the
+    /// mesh, around which a large raster is read. Throws ExcUser.
     std::shared_ptr<const Surface<dim>>
     read(const std::filesystem::path &folder,
-         const dealii::Point<3>      &origin) const;
+         const dealii::Point<3>      &origin,
+         const Box<dim>              &mesh) const;
 
     /// Return the corners of the line on the map along which the raster is cut,
     /// 2-D only. Throws ExcUser if the entry is no line.
@@ -92,7 +95,7 @@ namespace talus
 
   private:
     Raster
-    read_file(const std::filesystem::path &file) const;
+    read_file(const std::filesystem::path &file, const Box<2> &plan) const;
     std::shared_ptr<const Surface<dim>>
     read_outline(const dealii::Point<3> &origin) const;
     std::shared_ptr<const Surface<dim>>

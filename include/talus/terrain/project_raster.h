@@ -2,6 +2,7 @@
 #ifndef talus_terrain_project_raster_h
 #define talus_terrain_project_raster_h
 
+#include <talus/base/box.h>
 #include <talus/base/raster.h>
 
 #include <string>
@@ -25,6 +26,18 @@ namespace talus
                  const std::string &map,
                  double             spacing,
                  const std::string &place);
+
+
+
+  /// Return the part of the raster @p whole around @p box, without values. A
+  /// raster of up to four million cells is its own part. The part extends
+  /// beyond the box by the extent of the box and sixteen cells on each side:
+  /// the mesh may grow, and pipes go on beyond the mesh.
+  /// @param whole frame of the raster
+  /// @param box easting and northing, m, of the mesh
+  /// @param map code of the map of @p box, empty for the map of the raster
+  Raster
+  part_around(const Raster &whole, const Box<2> &box, const std::string &map);
 } // namespace talus
 
 #endif

@@ -27,11 +27,13 @@ namespace talus
     explicit Surfaces(const std::vector<std::string> &names);
 
     /// Read the files, from @p folder; call after parsing. @p origin of the
-    /// mesh on the map: easting, northing, height, m. Throws ExcUser.
+    /// mesh on the map: easting, northing, height, m. @p mesh is the box of the
+    /// mesh. Throws ExcUser.
     void
     prepare(const Constants             &constants,
             const std::filesystem::path &folder,
-            const dealii::Point<3>      &origin);
+            const dealii::Point<3>      &origin,
+            const Box<dim>              &mesh);
 
     std::shared_ptr<const Surface<dim>>
     surface(const std::string &path,

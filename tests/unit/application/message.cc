@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <functional>
 #include <new>
 #include <sstream>
@@ -147,5 +148,11 @@ namespace
     EXPECT_EQ(message(std::bad_alloc())
                 .find("There is not enough memory on this machine;"),
               0u);
+    EXPECT_EQ(message(std::filesystem::filesystem_error(
+                "symlink_status",
+                std::string(4100, 'a'),
+                std::make_error_code(std::errc::filename_too_long))),
+              "The path '" + std::string(100, 'a') +
+                "' cannot be used (File name too long). Give another path.");
   }
 } // namespace

@@ -107,14 +107,18 @@ namespace gdal_raster_test
     using Frame = std::array<double, 6>;
 
     /// Cells of 200 m x 100 m, the northernmost row first.
-    constexpr Frame frame = {{12000., 200., 0., 42300., 0., -100.}};
+    constexpr Frame frame = {{12000., 200., 0., 4300., 0., -100.}};
 
     /// Write a GeoTIFF of 4 x 3 values of the plane, of which one is missing.
+    /// Heights are numbers of lengths @p length, m; @p unit is the name of the
+    /// length, empty if the file has none.
     void
     write_tiff(const fs::path    &path,
                const Frame       *place   = &frame,
                const std::string &system  = "EPSG:32633",
-               const int          n_bands = 1)
+               const int          n_bands = 1,
+               const std::string &unit    = "",
+               const double       length  = 1.)
     {
       GDALAllRegister();
       const GDALDatasetUniquePtr file(
@@ -125,7 +129,7 @@ namespace gdal_raster_test
       for (unsigned int r = 0; r < 3; ++r)
         for (unsigned int i = 0; i < 4; ++i)
           values.push_back(
-            plane(t[0] + (i + 0.5) * t[1], t[3] + (r + 0.5) * t[5]));
+            plane(t[0] + (i + 0.5) * t[1], t[3] + (r + 0.5) * t[5]) / length);
       values[5] = -9999.f;
       if (place != nullptr)
         file->SetGeoTransform(const_cast<double *>(place->data()));
@@ -133,6 +137,8 @@ namespace gdal_raster_test
       words.SetFromUserInput(system.c_str());
       file->SetSpatialRef(&words);
       file->GetRasterBand(1)->SetNoDataValue(-9999.);
+      if (!unit.empty())
+        file->GetRasterBand(1)->SetUnitType(unit.c_str());
       ASSERT_EQ(file->GetRasterBand(1)->RasterIO(GF_Write,
                                                  0,
                                                  0,
@@ -158,9 +164,11 @@ namespace gdal_raster_test
                    const std::string         &x_name,
                    const std::vector<double> &x,
                    const std::string         &y_name,
-                   const std::vector<double> &y)
+                   const std::vector<double> &y,
+                   const std::string         &unit = "")
         : x_(x)
         , y_(y)
+        , unit_(unit)
       {
         GDALAllRegister();
         file_.reset(GetGDALDriverManager()
@@ -227,14 +235,15 @@ namespace gdal_raster_test
         auto axis =
           file_->GetRootGroup()->CreateDimension(name, "", "", values.size());
         auto array = add_array(name, {axis}, GDT_Float64);
-        if (name[0] == 'l')
-          array->SetUnit(unit);
+        if (name[0] == 'l' || !unit_.empty())
+          array->SetUnit(unit_.empty() ? unit : unit_);
         write(*array, values);
         return axis;
       }
 
       GDALDatasetUniquePtr      file_;
       const std::vector<double> x_, y_;
+      const std::string         unit_; ///< of the axes, if given
       Axes                      axes_;
     };
   } // namespace
@@ -244,14 +253,14 @@ namespace gdal_raster_test
   // From the north as usual, and from the south.
   TEST_F(GdalRasterTest, PlaneOfGeotiff)
   {
-    const Frame upwards = {{frame[0], frame[1], 0., 42000., 0., 100.}};
+    const Frame upwards = {{frame[0], frame[1], 0., 4000., 0., 100.}};
     for (const Frame *place : {&frame, &upwards})
       {
         write_tiff(path, place);
         Raster raster = read_raster(path);
         ASSERT_EQ(raster.values.size(), 12u);
         EXPECT_EQ(raster.west, 12000.);
-        EXPECT_EQ(raster.south, 42000.);
+        EXPECT_EQ(raster.south, 4000.);
         EXPECT_EQ(raster.dx, 200.);
         EXPECT_EQ(raster.dy, 100.);
         const unsigned int row = 1, column = 1;
@@ -267,7 +276,7 @@ namespace gdal_raster_test
   {
     write_tiff(path, nullptr);
     expect_refused("has no georeference");
-    const Frame turned = {{12000., 200., 10., 42300., 10., -100.}};
+    const Frame turned = {{12000., 200., 10., 4300., 10., -100.}};
     write_tiff(path, &turned);
     expect_refused("lies askew");
     write_tiff(path, &frame, "EPSG:32633", 3);
@@ -284,6 +293,151 @@ namespace gdal_raster_test
     write_tiff(path);
     fs::resize_file(path, 100);
     expect_refused("GDAL cannot read it (");
+  }
+
+
+
+  // The unit is that of the band, or that of the vertical axis.
+  TEST_F(GdalRasterTest, HeightsAreConvertedFromTheirUnit)
+  {
+    constexpr double survey_foot                               = 1200. / 3937.;
+    const std::tuple<std::string, std::string, double> files[] = {
+      {"", "metre", 1.},
+      {"", "ft", 0.3048},
+      {"", "US survey foot", survey_foot},
+      {"", "cm", 0.01},
+      {"", "km", 1000.},
+      {"+5773", "", 1.},
+      {"+6360", "", survey_foot},
+      {"+6360", "US survey foot", survey_foot}};
+    for (const auto &[vertical, unit, length] : files)
+      {
+        write_tiff(path, &frame, "EPSG:32633" + vertical, 1, unit, length);
+        Raster raster    = read_raster(path);
+        raster.values[5] = plane(raster.x(1), raster.y(1));
+        for (unsigned int r = 0; r < 3; ++r)
+          for (unsigned int i = 0; i < 4; ++i)
+            EXPECT_NEAR(raster.value(i, r),
+                        plane(raster.x(i), raster.y(r)),
+                        1e-3)
+              << vertical << ' ' << unit;
+        // The maps of the results are in metres.
+        EXPECT_EQ(well_known_text(raster.coordinate_system),
+                  well_known_text("EPSG:32633"));
+      }
+  }
+
+
+
+  TEST_F(GdalRasterTest, UnknownUnitsAreRefused)
+  {
+    write_tiff(path, &frame, "EPSG:32633", 1, "furlong");
+    expect_refused("heights in 'furlong', where metres");
+    write_tiff(path, &frame, "EPSG:32633+6360", 1, "m");
+    expect_refused("heights in 'm', but a vertical axis with a unit of 0.3048");
+    write_tiff(path, &frame, "EPSG:32633+5715");
+    expect_refused("a vertical axis that points down");
+    NetcdfWriter(path, "x", {1., 2., 3.}, "y", {1., 2.}, "km")
+      .add("z", GDT_Float32);
+    expect_refused("' in 'km', where metres were expected");
+    NetcdfWriter(path, "x", {1., 2., 3.}, "y", {1., 2.}, "meters")
+      .add("z", GDT_Float32)
+      ->SetUnit("m");
+    expect_plane(read_raster(path));
+    NetcdfWriter(path, "x", {1., 2., 3.}, "y", {1., 2.})
+      .add("z", GDT_Float32)
+      ->SetUnit("feet");
+    EXPECT_NEAR(read_raster(path).value(0, 1), 0.3048 * plane(1., 1.), 1e-6);
+  }
+
+
+
+  // A mark in double precision, of which the file has the single precision; a
+  // mark that the file does not declare.
+  TEST_F(GdalRasterTest, MarksOfMissingData)
+  {
+    const auto mark = [&](const double value, const double declared) {
+      write_tiff(path);
+      const GDALDatasetUniquePtr file(
+        GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE));
+      GDALRasterBand &band   = *file->GetRasterBand(1);
+      float           number = value;
+      band.SetNoDataValue(declared);
+      ASSERT_EQ(
+        band.RasterIO(
+          GF_Write, 1, 1, 1, 1, &number, 1, 1, GDT_Float32, 0, 0, nullptr),
+        CE_None);
+    };
+    mark(0.1, 0.1);
+    EXPECT_TRUE(std::isnan(read_raster(path).value(1, 1)));
+    mark(-99999., -9999.);
+    expect_refused("has heights from -99999 to ");
+    expect_refused("gdal_edit.py -a_nodata -99999 " + path.string());
+    mark(std::numeric_limits<float>::lowest(), -9999.);
+    expect_refused("nodata_value -3.4028234663852886e+38 in the head");
+    mark(-9999., 0.);
+    expect_refused("is -9999 a value for no data");
+  }
+
+
+
+  // Only the blocks around the mesh are read: the others do not exist in the
+  // file. Values lie where they do in the whole raster, from north and south.
+  TEST_F(GdalRasterTest, PartOfAHugeRaster)
+  {
+    for (const double dy : {-1., 1.})
+      {
+        {
+          const char *const options[] = {"TILED=YES",
+                                         "SPARSE_OK=TRUE",
+                                         nullptr};
+          GDALAllRegister();
+          const GDALDatasetUniquePtr file(
+            GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+              path.c_str(),
+              100000,
+              100000,
+              1,
+              GDT_Float32,
+              const_cast<char **>(options)));
+          Frame t = {{0., 1., 0., dy < 0. ? 1e5 : 0., 0., dy}};
+          file->SetGeoTransform(t.data());
+          std::vector<float> values;
+          for (unsigned int r = 0; r < 3; ++r)
+            for (unsigned int i = 0; i < 4; ++i)
+              values.push_back(plane(700.5 + i, t[3] + dy * (60000.5 + r)) +
+                               3e4);
+          ASSERT_EQ(file->GetRasterBand(1)->RasterIO(GF_Write,
+                                                     700,
+                                                     60000,
+                                                     4,
+                                                     3,
+                                                     values.data(),
+                                                     4,
+                                                     3,
+                                                     GDT_Float32,
+                                                     0,
+                                                     0,
+                                                     nullptr),
+                    CE_None);
+        }
+        Raster raster = read_raster(path, [dy](Raster whole) {
+          whole.west      = 700.;
+          whole.south     = dy < 0. ? 1e5 - 60003. : 60000.;
+          whole.n_columns = 4;
+          whole.n_rows    = 3;
+          return whole;
+        });
+        ASSERT_EQ(raster.values.size(), 12u);
+        for (double &value : raster.values)
+          value -= 3e4;
+        for (unsigned int r = 0; r < 3; ++r)
+          for (unsigned int i = 0; i < 4; ++i)
+            EXPECT_NEAR(raster.value(i, r),
+                        plane(raster.x(i), raster.y(r)),
+                        0.01);
+        expect_refused("100000 x 100000 values at the mesh");
+      }
   }
 
 

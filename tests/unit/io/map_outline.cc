@@ -107,6 +107,8 @@ namespace map_outline_test
           std::make_pair("urn:ogc:def:crs:OGC:1.3:CRS84", "EPSG:4326")})
       EXPECT_EQ(read(features(polygon(ring), crs(name))).coordinate_system,
                 system);
+    expect_refused(features(polygon(ring), crs("nowhere")),
+                   "has the coordinate system 'nowhere'");
   }
 
 
@@ -267,6 +269,9 @@ namespace map_outline_test
     };
     write_shapefile("area.shp", 2, wgs_84_words);
     expect_refused_file("area.shp", "has 2 polygons, where one");
+    write_shapefile("area.shp", 1, "What is this?");
+    expect_refused_file("area.shp",
+                        "area.prj' has the coordinate system 'What is this?'");
     write_shapefile("area.shp", 0, wgs_84_words);
     expect_refused_file("area.shp", "has 0 polygons");
     std::ofstream("area.kml") << kml(

@@ -3,6 +3,7 @@
 // without a raster in metres are refused with a sentence.
 
 #include <talus/base/errors.h>
+#include <talus/io/coordinate_system.h>
 #include <talus/io/esri_grid.h>
 #include <talus/io/raster_file.h>
 #include <talus/version.h>
@@ -236,10 +237,88 @@ namespace raster_test
     const std::string grid =
       "ncols 1\nnrows 1\nxllcorner 4\nyllcorner 63\ncellsize 1\n5\n";
     EXPECT_EQ(read(grid).coordinate_system, "");
-    const fs::path beside = fs::path(path).replace_extension(".prj");
-    std::ofstream(beside) << "PROJCS[\"of the user\"]\r\n";
-    EXPECT_EQ(read(grid).coordinate_system, "PROJCS[\"of the user\"]");
+    const fs::path    beside = fs::path(path).replace_extension(".prj");
+    const std::string system = "LOCAL_CS[\"of the user\",UNIT[\"metre\",1]]";
+    std::ofstream(beside) << system + "\r\n";
+    EXPECT_EQ(read(grid).coordinate_system, system);
+    std::ofstream(beside) << "\xef\xbb\xbf" + system;
+    EXPECT_EQ(read(grid).coordinate_system, system);
+    std::ofstream(beside) << "What is this?";
+    expect_error(grid,
+                 beside.string() + "' has the coordinate system 'What is this");
     fs::remove(beside);
+  }
+
+
+
+#if TALUS_WITH_GDAL
+  TEST_F(RasterTest, OldFormOfArc)
+  {
+    const std::string grid =
+      "ncols 1\nnrows 1\nxllcorner 4e5\nyllcorner 6e6\ncellsize 1\n5\n";
+    const fs::path beside = fs::path(path).replace_extension(".prj");
+    const auto     write  = [&](const std::string &unit,
+                           const std::string &unit_of_heights) {
+      std::ofstream(beside) << "Projection    UTM\r\nZone          33\r\n"
+                                    "Datum  WGS84\r\nSpheroid  WGS84\r\n"
+                                    "Units         "
+                            << unit << "\r\nZunits        " << unit_of_heights
+                            << "\r\nParameters\r\n";
+    };
+    write("FEET", "NO");
+    expect_error(grid, "is not in metres: its cells are 1 wide");
+    write("METERS", "NO");
+    EXPECT_EQ(read(grid).value(0, 0), 5.);
+    write("METERS", "FEET");
+    EXPECT_NEAR(read(grid).value(0, 0), 5. * 0.3048, 1e-12);
+    // Esri's form: both parts one after the other.
+    std::ofstream(beside) << well_known_text("EPSG:32633")
+                          << ",VERTCS[\"NAVD88_height_(ftUS)\",VDATUM[\"North_"
+                             "American_Vertical_Datum_1988\"],PARAMETER["
+                             "\"Vertical_Shift\",0.0],PARAMETER[\"Direction\","
+                             "1.0],UNIT[\"Foot_US\",0.3048006096012192]]";
+    EXPECT_NEAR(read(grid).value(0, 0), 5. * 1200. / 3937., 1e-9);
+    fs::remove(beside);
+  }
+#endif
+
+
+
+  // Header and rows have the same number in single precision.
+  TEST_F(RasterTest, MarksInSinglePrecision)
+  {
+    const Raster raster =
+      read(header + "nodata_value -3.40282346638529e+38\n" +
+           "1 2 3 -3.4028234663852886e+38\n" + "5 6 7 8\n8 9 10 11\n");
+    EXPECT_TRUE(std::isnan(raster.value(3, 0)));
+    EXPECT_EQ(raster.value(2, 0), 3.);
+    expect_error(header + "nodata 1\n1 1 1 1\n1 1 1 1\n1 1 1 1\n",
+                 "has no value at the mesh");
+    // The advice is followed.
+    const std::string rows =
+      "1 2 3 -3.4028234663852886e+38\n5 6 7 8\n1 2 3 4\n";
+    expect_error(header + rows, "nodata_value -3.4028234663852886e+38 in");
+    EXPECT_TRUE(
+      std::isnan(read(header + "nodata_value -3.4028234663852886e+38\n" + rows)
+                   .value(3, 0)));
+  }
+
+
+
+  TEST_F(RasterTest, PartIsStored)
+  {
+    read(header + rows());
+    const Raster raster = read_raster(path, [](Raster whole) {
+      whole.west += whole.dx;
+      whole.south += whole.dy;
+      whole.n_columns = 2;
+      whole.n_rows    = 1;
+      return whole;
+    });
+    ASSERT_EQ(raster.values.size(), 2u);
+    EXPECT_LT(distance_from_plane(raster), 1e-12);
+    // The rows beside are counted, too.
+    expect_error(header + "1 2 3 4\n5 6 7\n8 9 10 11\n", "row 2 has 3 values");
   }
 
 

@@ -425,4 +425,39 @@ TEST(MapTransformation, NeedsGdal)
             "PROJCS[\"of the user\"]");
 }
 
+
+
+// The part of a large raster gives the same surface at the mesh as the whole,
+// also where longitudes count from 0 to 360.
+TEST(PartAround, SurfaceAtTheMeshIsThatOfTheWhole)
+{
+  Raster       whole = in_degrees(2100, waves);
+  const Box<2> mesh{middle_of_map - Point<2>(300., 200.),
+                    middle_of_map + Point<2>(300., 200.)};
+  for (const double turn : {0., 360.})
+    {
+      whole.west        = west + turn;
+      const Raster part = part_around(whole, mesh, utm_33n);
+      EXPECT_LT(part.n_columns * part.n_rows, 100000u);
+      Raster read = part;
+      read.values.clear();
+      const int column = std::lround((part.west - whole.west) / whole.dx);
+      const int row    = whole.n_rows - part.n_rows -
+                      std::lround((part.south - whole.south) / whole.dy);
+      for (unsigned int r = 0; r < part.n_rows; ++r)
+        for (unsigned int i = 0; i < part.n_columns; ++i)
+          read.values.push_back(whole.value(column + i, row + r));
+      const HeightField all(whole), cut(read);
+      for (const double x : {-300., 0., 300.})
+        for (const double y : {-200., 0., 200.})
+          {
+            Point<2> place =
+              transformed(middle_of_map + Point<2>(x, y), utm_33n, wgs_84);
+            place[0] += turn;
+            ASSERT_TRUE(cut.at(place));
+            EXPECT_NEAR(cut.at(place)->height, all.at(place)->height, 1e-9);
+          }
+    }
+}
+
 #endif

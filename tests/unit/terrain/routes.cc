@@ -30,14 +30,14 @@ TEST(Routes, FileIsReadOnce)
   dealii::ParameterAcceptor::declare_all_parameters();
   dealii::ParameterAcceptor::parse_all_parameters();
   const Constants constants;
-  surfaces.prepare(constants, folder, Point<3>());
+  surfaces.prepare(constants, folder, Point<3>(), {});
   const std::vector<Point<2>> expected = {{1e5, 2e5}, {1.1e5, 2.2e5}};
   write("[100000, 200000], [110000, 220000]");
   EXPECT_EQ(surfaces.read_route("'Route'", "pipe.geojson"), expected);
   write("[0, 0], [1, 1]");
   EXPECT_EQ(surfaces.read_route("'Route'", "pipe.geojson"), expected);
   // A new preparation reads anew.
-  surfaces.prepare(constants, folder, Point<3>());
+  surfaces.prepare(constants, folder, Point<3>(), {});
   EXPECT_NE(surfaces.read_route("'Route'", "pipe.geojson"), expected);
   std::filesystem::remove_all(folder);
 }
