@@ -155,9 +155,11 @@ namespace talus
       interactions.list_state(list);
     }
 
-  private:
+    /// Append remarks for the start of the log; empty remarks are left out.
     void
     add_remarks(const std::vector<std::string> &remarks);
+
+  private:
     void
     look_at_geometry(const State<dim> &state);
     void
