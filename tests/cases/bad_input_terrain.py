@@ -180,7 +180,9 @@ class BadInputTerrain(Case):
                 self.assertIn("Remark 1: ", result.stdout)
         # Nearly the same, as it is meant.
         for settings in (
-                self.layer("2", "0"), raster + ["Surfaces/bed/Section=5,0; -5,0"],
+                self.layer("2", "0") + ["Bodies/block/Lower corner=0,0",
+                                        "Bodies/block/Upper corner=4,0"],
+                raster + ["Surfaces/bed/Section=5,0; -5,0"],
                 pipe + ["Obstacles/pipe/Centre=0.5,3.9"],
                 clay + pipe[:3] + ["Obstacles/Names=bed",
                                    "Obstacles/bed/Maximum shear stress=1e3"]):
