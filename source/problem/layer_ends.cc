@@ -56,6 +56,38 @@ namespace talus
 
 
 
+    /// Space outside of the obstacles.
+    template <int dim>
+    class OpenSpace
+    {
+    public:
+      explicit OpenSpace(const typename Body<dim>::Solids &solids)
+      {
+        region_.cut_away(solids);
+        for (const Shape<dim> *solid : solids)
+          obstacles_.emplace_back(*solid);
+      }
+
+      /// Return whether @p x is outside of all obstacles; false where the
+      /// surface of an obstacle is undefined.
+      bool
+      contains(const Point<dim> &x) const
+      {
+        return std::all_of(obstacles_.begin(),
+                           obstacles_.end(),
+                           [&x](const auto &obstacle) {
+                             return obstacle.is_known_at(x);
+                           }) &&
+               region_.contains(x);
+      }
+
+    private:
+      Region<dim>             region_;
+      std::vector<Layer<dim>> obstacles_;
+    };
+
+
+
     /// Part of a layer beyond a face of the mesh.
     struct Beyond
     {
@@ -78,7 +110,7 @@ namespace talus
 
       double                      inside   = 0.;
       double                      distance = 0.; ///< between columns, m
-      Region<dim>                 open_space;
+      OpenSpace<dim>              open_space;
       std::array<Beyond, 2 * dim> beyond;
     };
 
@@ -89,9 +121,9 @@ namespace talus
     Parts<dim>::Parts(const Layer<dim>     &layer,
                       const LayerSite<dim> &site,
                       Box<dim>              plan)
+      : distance(distance_in(plan))
+      , open_space(site.solids)
     {
-      open_space.cut_away(site.solids);
-      distance = distance_in(plan);
       for (unsigned int d = 0; d < dim; d += 2)
         {
           if (site.is_free[2 * d] && plan.lower[d] == site.domain.lower[d])
@@ -286,9 +318,8 @@ namespace talus
     const Layer<dim> layer(*shapes[b]);
     if (!layer.is_layer())
       return "";
-    Region<dim> open_space;
-    open_space.cut_away(site.solids);
-    const auto is_taken = [&](const Point<dim> &x) {
+    const OpenSpace<dim> open_space(site.solids);
+    const auto           is_taken = [&](const Point<dim> &x) {
       return !open_space.contains(x) ||
              std::any_of(shapes.begin(), shapes.end(), [&](const auto &shape) {
                return shape != shapes[b] && shape->contains(x);

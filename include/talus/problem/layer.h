@@ -48,9 +48,16 @@ namespace talus
                          [&x](const auto *part) {
                            return part->contains(x);
                          }) &&
-             std::all_of(sides_.begin(), sides_.end(), [&x](const auto *side) {
-               return side->is_known_at(x);
-             });
+             is_known_at(x);
+    }
+
+    /// Return whether the surfaces are defined at @p x.
+    bool
+    is_known_at(const dealii::Point<dim> &x) const
+    {
+      return std::all_of(sides_.begin(), sides_.end(), [&x](const auto *side) {
+        return side->is_known_at(x);
+      });
     }
 
     /// Return the heights of the lower and the upper surface at @p x, m; the

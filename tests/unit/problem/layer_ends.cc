@@ -3,6 +3,7 @@
 
 #include <talus/geometry/analytic_shapes.h>
 #include <talus/geometry/expression_surface.h>
+#include <talus/geometry/side_of_surface.h>
 #include <talus/problem/layer_ends.h>
 
 #include "core_setup.h"
@@ -147,6 +148,44 @@ namespace
     EXPECT_EQ(layers.cut(), "");
     layers.site.is_free[2] = true;
     EXPECT_TRUE(contains(layers.refusal(), "'Grid/Lower corner'"));
+  }
+
+
+
+  /// Ground at y = 0 that is known in the mesh only, like a raster.
+  struct KnownInTheMesh : Surface<2>
+  {
+    Value
+    at(const Point<2> &x) const override
+    {
+      AssertThrow(is_known_at(x), ExcUser("The ground is not known here."));
+      return {0., {}};
+    }
+
+    bool
+    is_known_at(const Point<2> &x) const override
+    {
+      return x[0] >= 0. && x[0] <= 40.;
+    }
+
+    double
+    largest_change(const Point<2> & /*x*/,
+                   const double /*distance*/) const override
+    {
+      return 0.;
+    }
+  };
+
+
+
+  TEST(LayerEnds, BesideTheRasterOfAnObstacle)
+  {
+    Layers<2> layers(section, {between("0", "1")});
+    layers.site.is_free.fill(true);
+    const SideOfSurface<2> ground(std::make_shared<KnownInTheMesh>(),
+                                  SideOfSurface<2>::Side::below);
+    layers.site.solids = {&ground};
+    EXPECT_EQ(layers.cut(), "");
   }
 
 
