@@ -203,6 +203,17 @@ namespace talus
   void
   MeshTracking<dim>::adapt(Grid<dim> &grid, const std::vector<Box<dim>> &boxes)
   {
+    // A lower bound, as boxes of several bodies may overlap: the list of blocks
+    // alone could fill the memory.
+    double n_cells = 0.;
+    for (const Box<dim> &box : boxes)
+      {
+        double n_cells_of_box = 0.5;
+        for (unsigned int d = 0; d < dim; ++d)
+          n_cells_of_box *= box.length(d) / grid.cell_size();
+        n_cells += n_cells_of_box;
+      }
+    grid.check_memory(n_cells);
     Blocks wanted;
     for (const Box<dim> &box : boxes)
       want(grid,

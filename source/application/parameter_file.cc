@@ -2,6 +2,7 @@
 #include <talus/application/message.h>
 #include <talus/application/parameter_file.h>
 #include <talus/application/parameter_lines.h>
+#include <talus/application/unusual_values.h>
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/checkpoint/parameter_changes.h>
@@ -19,6 +20,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -372,9 +374,9 @@ namespace talus
     /// have their sections. Avoids std::regex, whose use of stack grows with
     /// the text.
     void
-    check_sizes(const ParameterHandler &prm)
+    check_sizes(const std::map<std::string, std::string> &values)
     {
-      for (const auto &[path, value] : values_by_path(parameters_as_text(prm)))
+      for (const auto &[path, value] : values)
         if (!is_text(path.substr(path.rfind('/') + 1)))
           check_size(path, value);
     }
@@ -401,7 +403,7 @@ namespace talus
   /// are declared by add_parameter(), which fills the members while parsing:
   /// ParameterAcceptor::parse_all_parameters() would also enter the sections of
   /// other runs in the process.
-  void
+  std::vector<std::string>
   ParameterFile::parse() const
   {
     try
@@ -414,6 +416,9 @@ namespace talus
         AssertThrow(false, ExcUser(message(exception)));
       }
     check_has_names(ParameterAcceptor::prm);
-    check_sizes(ParameterAcceptor::prm);
+    const auto values =
+      values_by_path(parameters_as_text(ParameterAcceptor::prm));
+    check_sizes(values);
+    return unusual_values(values);
   }
 } // namespace talus

@@ -89,7 +89,8 @@ namespace talus
       const GlobalParameters scope;
       auto                   simulation =
         std::make_unique<Simulation<dim>>(file.preview(), communicator);
-      file.parse();
+      for (const std::string &remark : file.parse())
+        simulation->add_remark(remark);
       if (!options.output_folder.empty())
         simulation->output().set_folder(options.output_folder);
       if (options.overwrite)

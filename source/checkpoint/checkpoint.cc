@@ -154,10 +154,13 @@ namespace talus
       remove_unfinished(output_folder_);
     AssertThrow(false,
                 ExcUser("A checkpoint could not be written to '" +
-                        output_folder_.string() + "' (" + sentence +
-                        "). Earlier checkpoints remain: free some space and "
-                        "continue with --resume, or choose another folder with "
-                        "--output."));
+                        output_folder_.string() + "' (" + sentence + "). " +
+                        (last_.empty()
+                           ? "There is no earlier checkpoint: free some space "
+                             "and start again"
+                           : "Earlier checkpoints remain: free some space and "
+                             "continue with --resume") +
+                        ", or choose another folder with --output."));
   }
 
 

@@ -5,8 +5,10 @@
 #include <talus/io/checksum.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <set>
+#include <sstream>
 
 namespace talus
 {
@@ -195,31 +197,37 @@ namespace talus
 
 
 
+  namespace
+  {
+    constexpr const char *name_of_numbers = "state/numbers";
+    constexpr const char *name_of_columns = "text/columns of the state";
+  } // namespace
+
+
+
   /// The value of each rank is saved, not the sum: with the same number of
-  /// ranks every rank gets its own value back with identical round-off.
-  /// Collective.
+  /// ranks every rank gets its own value back with identical round-off. All
+  /// numbers are in one array with a column per number, because the time of
+  /// HDF5 grows with the square of the number of arrays in a group. Collective.
   void
   save_state(Hdf5OutputFile &file, const StateList &list)
   {
     std::vector<double> own;
+    std::string         columns;
     for (const StateList::Number &number : list.numbers())
-      own.push_back(number.get());
-    const auto of_ranks = Utilities::MPI::all_gather(file.communicator(), own);
-
-    file.create_group("state");
-    for (unsigned int i = 0; i < own.size(); ++i)
       {
-        const StateList::Number &number = list.numbers()[i];
-        const std::string        name   = "state/" + checked(number.name);
-        std::vector<double>      shares;
-        for (const std::vector<double> &numbers : of_ranks)
-          shares.push_back(numbers[i]);
-        // After a single exchange of all numbers, all ranks know all values.
-        file.write_known(name, shares);
-        file.set_attribute(name, "unit", number.unit);
-        file.set_attribute(name, "over ranks", name_of(number.reduction));
+        own.push_back(number.get());
+        columns += text(number.name,
+                        '\t',
+                        number.unit,
+                        '\t',
+                        name_of(number.reduction),
+                        '\n');
       }
+    file.create_group("state");
+    file.write(name_of_numbers, own, own.size());
     file.create_group("text");
+    file.write_text(name_of_columns, columns);
     for (const StateList::Text &text : list.texts())
       file.write_text("text/" + checked(text.name), text.get());
     for (const StateList::Table &table : list.tables())
@@ -247,12 +255,27 @@ namespace talus
     const unsigned int  n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     const unsigned int  rank = Utilities::MPI::this_mpi_process(communicator);
     const std::uint64_t n_ranks_then = file.integer_attribute("/", "ranks");
+    const std::vector<double> values =
+      file.read(name_of_numbers, 0, n_ranks_then);
+    std::istringstream lines(file.read_text(name_of_columns));
+    check_read(file);
+    std::map<std::string, std::size_t> columns; // by name of the number
+    for (std::string line; std::getline(lines, line);)
+      columns.emplace(line.substr(0, line.find('\t')), columns.size());
     for (const StateList::Number &number : list.numbers())
       {
-        // check_read() throws if the file lacks a number of this program.
-        const std::vector<double> shares =
-          file.read("state/" + number.name, 0, n_ranks_then);
-        check_read(file);
+        const auto column = columns.find(number.name);
+        AssertThrow(column != columns.end() &&
+                      values.size() == n_ranks_then * columns.size(),
+                    ExcUser("In '" + file.path().string() + "' the number '" +
+                            number.name +
+                            "' is missing, which this version of talus needs. "
+                            "Resume with the version of talus that wrote the "
+                            "file."));
+        std::vector<double> shares;
+        for (std::size_t i = column->second; i < values.size();
+             i += columns.size())
+          shares.push_back(values[i]);
         number.set(restored_share(shares, number.reduction, rank, n_ranks));
       }
     for (const StateList::Text &text : list.texts())

@@ -374,6 +374,10 @@ namespace talus
                        ". Choose a larger Grid/Cell size than ",
                        cell_size_,
                        " m, a smaller box",
+                       initial_refinement_ > 0
+                         ? text(", less Grid/Initial refinement than ",
+                                initial_refinement_)
+                         : "",
                        boxes_.empty() ? "" : ", fewer Grid/Refinement boxes",
                        grows_ ? ", a larger Grid/Coarsest level" : "",
                        ", or more ranks on more machines.")));

@@ -14,7 +14,7 @@ namespace talus
   {
     using Handle = Hdf5Handle;
 
-    constexpr unsigned int largest_n_columns = 1 << 16;
+    constexpr unsigned int largest_n_columns = 1 << 24;
 
 
 

@@ -327,23 +327,8 @@ namespace talus
 
 
 
-  /// All ranks have the values; only the first rank writes, and no agreement on
-  /// the distribution of rows is needed.
-  void
-  Hdf5OutputFile::write_known(const std::string         &name,
-                              const std::vector<double> &values)
-  {
-    const hsize_t extent = values.size();
-    const Handle  space(H5Screate_simple(1, &extent, nullptr), H5Sclose);
-    write_by_first_rank(
-      name, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, space, values.data());
-    if (options_.has_checksums)
-      set_attribute(name, "checksum", checksum(values, 0));
-  }
-
-
-
-  /// All ranks must know the length, a part of the type.
+  /// All ranks must know the length, a part of the type. Making an array is
+  /// collective; only the first rank writes.
   void
   Hdf5OutputFile::write_text(const std::string &name, const std::string &text)
   {
@@ -351,30 +336,13 @@ namespace talus
       return;
     const std::string same = Utilities::MPI::broadcast(communicator(), text);
     const Handle      type = text_type(same);
-    const Handle      space(H5Screate(H5S_SCALAR), H5Sclose);
-    write_by_first_rank(name, type, type, space, same.c_str());
-    if (options_.has_checksums)
-      set_attribute(name, "checksum", checksum(same));
-  }
-
-
-
-  /// Making an array is collective; writing need not be.
-  void
-  Hdf5OutputFile::write_by_first_rank(const std::string &name,
-                                      const hid_t        memory_type,
-                                      const hid_t        file_type,
-                                      const hid_t        space,
-                                      const void        *values)
-  {
-    reserve(small_overhead +
-            H5Sget_simple_extent_npoints(space) * H5Tget_size(file_type));
+    reserve(small_overhead + H5Tget_size(type));
     if (!error().empty())
       return;
     const Handle array(H5Dcreate2(file_,
                                   name.c_str(),
-                                  file_type,
-                                  space,
+                                  type,
+                                  Handle(H5Screate(H5S_SCALAR), H5Sclose),
                                   H5P_DEFAULT,
                                   undated(H5P_DATASET_CREATE),
                                   H5P_DEFAULT),
@@ -382,9 +350,10 @@ namespace talus
     const bool   success =
       array.is_valid() &&
       (!is_first_rank_ ||
-       H5Dwrite(array, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >=
-         0);
+       H5Dwrite(array, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, same.c_str()) >= 0);
     note_error(success, "'" + name + "' could not be written");
+    if (options_.has_checksums)
+      set_attribute(name, "checksum", checksum(same));
   }
 
 

@@ -97,6 +97,13 @@ namespace talus
                         other_folder);
       if (!is_ours(owner))
         return lock_of_others(folder);
+      // A refused run may have removed the file before it was locked here.
+      struct stat status;
+      if (::fstat(file, &status) == 0 && status.st_nlink == 0)
+        {
+          ::close(file);
+          return lock(folder, file);
+        }
       // The lock alone decides. The content only names the owner, and may be
       // missing, for instance on a full disk.
       std::array<char, 256> host = {};
@@ -134,8 +141,7 @@ namespace talus
 
   // flock(), not fcntl(): the lock belongs to the open file, and is not lost
   // when the program closes another descriptor of the same file. The file stays
-  // after the run: removing the file could remove the lock of a run that starts
-  // at the same moment.
+  // after the run, as the resumed run and the tools look for it.
   void
   FolderLock::acquire(const fs::path &folder, const MPI_Comm communicator)
   {
@@ -143,7 +149,10 @@ namespace talus
     if (is_first_rank(communicator))
       {
         make_folder(folder);
-        error = lock(folder, file_);
+        const bool is_new = !fs::exists(fs::symlink_status(folder / "lock"));
+        error             = lock(folder, file_);
+        if (is_new && error.empty())
+          new_file_ = folder / "lock";
       }
     error = Utilities::MPI::broadcast(communicator, error);
     AssertThrow(error.empty(), ExcUser(error));
@@ -153,6 +162,9 @@ namespace talus
 
   FolderLock::~FolderLock()
   {
+    std::error_code ignored;
+    if (!new_file_.empty())
+      fs::remove(new_file_, ignored);
     if (file_ >= 0)
       ::close(file_);
   }

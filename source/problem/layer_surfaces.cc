@@ -1,78 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
-#include <talus/geometry/side_of_surface.h>
+#include <talus/problem/layer.h>
 #include <talus/problem/layer_surfaces.h>
 #include <talus/problem/plan_places.h>
 
-#include <algorithm>
 #include <limits>
 
 namespace talus
 {
   using namespace dealii;
-
-  namespace
-  {
-    /// Thickness that counts as round-off, in cells: beyond the end of a layer
-    /// both surfaces may coincide.
-    constexpr double thickness_of_round_off = 1e-5;
-
-
-
-    /// Shape of a layer: limits in plan, and two surfaces.
-    template <int dim>
-    class Layer
-    {
-    public:
-      explicit Layer(const Shape<dim> &shape)
-      {
-        for (const Shape<dim> *part : shape.parts())
-          if (const auto *side = dynamic_cast<const SideOfSurface<dim> *>(part))
-            sides_.push_back(side);
-          else
-            outline_.push_back(part);
-      }
-
-      /// Return whether the shape has two surfaces.
-      bool
-      is_layer() const
-      {
-        return sides_.size() == 2;
-      }
-
-      bool
-      is_in_plan(const Point<dim> &x) const
-      {
-        return std::all_of(outline_.begin(),
-                           outline_.end(),
-                           [&x](const auto *part) {
-                             return part->contains(x);
-                           });
-      }
-
-      /// Return the height of the upper above the lower surface at @p x, m;
-      /// negative where the surfaces have crossed.
-      double
-      thickness(const Point<dim> &x) const
-      {
-        // Distances are to tangent planes at x; the vertical distances to both
-        // surfaces have opposite signs.
-        double sum = 0.;
-        for (const auto *side : sides_)
-          {
-            const auto [distance, normal] = side->distance_and_normal(x);
-            sum -= distance / std::abs(normal[1]);
-          }
-        return sum;
-      }
-
-    private:
-      std::vector<const Shape<dim> *>         outline_;
-      std::vector<const SideOfSurface<dim> *> sides_;
-    };
-  } // namespace
-
-
 
   template <int dim>
   std::string
@@ -91,7 +27,8 @@ namespace talus
     for (const Point<dim> &x : plan_places(domain, cell_size))
       if (layer.is_in_plan(x))
         {
-          const double thickness = layer.thickness(x);
+          const auto [lower, upper] = layer.ends(x);
+          const double thickness    = upper - lower;
           ++n_places;
           n_crossed += (thickness < -thickness_of_round_off * cell_size);
           largest = std::max(largest, thickness);

@@ -5,6 +5,7 @@
 #include <talus/contact/seabed_gaps.h>
 #include <talus/problem/bottom_of_mesh.h>
 #include <talus/problem/geostatic.h>
+#include <talus/problem/layer_ends.h>
 #include <talus/problem/layer_surfaces.h>
 #include <talus/problem/problem.h>
 #include <talus/problem/strength_field.h>
@@ -94,7 +95,11 @@ namespace talus
   void
   Problem<dim>::create_points(State<dim> &state)
   {
-    Points<dim> &points = state.points;
+    Points<dim>         &points = state.points;
+    const LayerSite<dim> site{state.grid.domain_before_growth(),
+                              state.grid.cell_size(),
+                              obstacles.shapes(),
+                              faces_that_may_move()};
     for (unsigned int b = 0; b < bodies_.size(); ++b)
       {
         const MaterialModel<dim> &material = materials.of_body(b);
@@ -103,11 +108,11 @@ namespace talus
         const unsigned int        begin    = points.size();
         initial.check(material);
         add_remarks(std::vector<Remark>{
-          check_layer_surfaces(body,
-                               state.grid.domain_before_growth(),
-                               state.grid.cell_size()),
+          check_layer_surfaces(body, site.domain, site.cell_size),
+          check_cut_by_mesh(body, site),
+          note_on_free_end(bodies_.list(), b, site),
           body.create_points(
-            state.grid, b, material.density(), points, obstacles.shapes())});
+            state.grid, b, material.density(), points, site.solids)});
         // At t = 0; set_velocity() corrects the velocity for half a step before
         // the start.
         initial.set_velocity(points, b, 0., inputs_.constants);

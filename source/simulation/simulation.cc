@@ -438,6 +438,7 @@ namespace talus
   Simulation<dim>::begin_files()
   {
     check_output_folder();
+    output_.keep_lock();
     output_.begin(state_, end_time_, parameters_, beginning());
     static_stages_.begin(output_.folder(), beginning());
     checkpoint_.begin(output_.folder(),

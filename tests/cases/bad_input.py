@@ -433,7 +433,10 @@ class BadInput(Case):
                  "Grid/Refinement boxes"),
                 (900000, "0.002",
                  ["Mesh tracking/Enabled=true", "Grid/Coarsest level=6"],
-                 "Grid/Coarsest level")):
+                 "Grid/Coarsest level"),
+                (1200000, "1",
+                 ["Mesh tracking/Enabled=true", "Grid/Initial refinement=10"],
+                 "less Grid/Initial refinement than 10")):
             self.assert_refused(self.run_limited(kilobytes, size, *settings),
                                 "The mesh would have", "GB are available",
                                 advice)

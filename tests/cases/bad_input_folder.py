@@ -396,6 +396,7 @@ class BadInputFolder(Case):
         self.assert_refused(self.run_file(), "'lock'", "no run has written",
                             "--output")
         self.assertEqual(mine.read_text(), "mine")
+        (self.results / "lock").unlink()
         self.assert_untouched()
 
     def test_what_others_put_beside_checkpoints_stays(self):

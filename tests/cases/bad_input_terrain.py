@@ -157,6 +157,10 @@ class BadInputTerrain(Case):
                  "No body is made of the material of section /Materials/sand"),
                 (self.layer("2-0.5*x", "0.5*x-0.2"), "lies above the upper surface",
                  "by up to 0.3 m, at x = 2.5 m"),
+                (self.layer("1", "-1"),
+                 "50 % of the layer lie beyond this face", "'Grid/Lower corner'"),
+                (self.layer("1.5", "0"), "ends in a free face of 1.5 m"),
+                (["Materials/clay/Density=1e-6"], "0.1 to 30000 kg/m^3"),
                 (self.layer("1.5", "0"), "'block' is 1.5 cells of 1 m thick"),
                 (pipe + ["Obstacles/pipe/Centre=2,-1.2", "Grid/Lower corner=0,-4"],
                  "No part of the obstacle 'pipe'"),
@@ -176,7 +180,9 @@ class BadInputTerrain(Case):
                 self.assertIn("Remark 1: ", result.stdout)
         # Nearly the same, as it is meant.
         for settings in (
-                self.layer("2", "0"), raster + ["Surfaces/bed/Section=5,0; -5,0"],
+                self.layer("2", "0") + ["Bodies/block/Lower corner=0,0",
+                                        "Bodies/block/Upper corner=4,0"],
+                raster + ["Surfaces/bed/Section=5,0; -5,0"],
                 pipe + ["Obstacles/pipe/Centre=0.5,3.9"],
                 clay + pipe[:3] + ["Obstacles/Names=bed",
                                    "Obstacles/bed/Maximum shear stress=1e3"]):

@@ -47,8 +47,8 @@ namespace talus
 
     /// Second, strict pass: fill all objects that accept parameters. Throws,
     /// naming file and line, at the first entry that is unknown or out of
-    /// range.
-    void
+    /// range. Returns remarks on values far from usual ones.
+    std::vector<std::string>
     parse() const;
 
   private:

@@ -26,9 +26,9 @@ namespace talus
     Value
     at(const dealii::Point<3> &x) const override
     {
-      const dealii::Point<2> in_plan(x[0], x[2]);
-      const auto             outwards = polygon_.normal(in_plan);
-      Value                  value{-polygon_.signed_distance(in_plan), {}};
+      const auto [distance, outwards] =
+        polygon_.distance_and_normal({x[0], x[2]});
+      Value value{-distance, {}};
       value.slope[0] = -outwards[0];
       value.slope[2] = -outwards[1];
       return value;

@@ -4,16 +4,14 @@
 
 #include <talus/geometry/shape.h>
 
-#include <boost/geometry.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/geometries/polygon.hpp>
-
 #include <string>
 #include <vector>
 
 namespace talus
 {
-  /// Line of straight edges: the only computation of distances to edges.
+  /// Line of straight edges: the only computation of distances to edges. Boxes
+  /// around runs of edges make the cost of a query grow with the logarithm of
+  /// the number of edges.
   class EdgeLine
   {
   public:
@@ -36,7 +34,50 @@ namespace talus
     Nearest
     nearest(const dealii::Point<2> &x) const;
 
+    /// Return whether the closed line encloses @p x or passes through it.
+    bool
+    encloses(const dealii::Point<2> &x) const;
+
+    /// Box around all edges; infinite if the ends are endless.
+    const Box<2> &
+    bounding_box() const
+    {
+      return boxes_[1];
+    }
+
   private:
+    /// Place of edge @p e nearest to @p x.
+    struct Foot
+    {
+      double               t; ///< 0 at the first end of the edge, 1 at the last
+      dealii::Tensor<1, 2> away; ///< from the place on the edge to x, m
+    };
+
+    std::size_t
+    n_edges() const
+    {
+      return vertices_.size() - 1;
+    }
+
+    Foot
+    foot(std::size_t e, const dealii::Point<2> &x) const;
+
+    /// Run of edges in the box number k of boxes_; boxes 2k and 2k + 1 have the
+    /// halves of the run.
+    struct Run
+    {
+      std::size_t k, begin, end;
+    };
+
+    void
+    enclose(const Run &run);
+    template <typename Bound, typename Use>
+    void
+    visit(const Run    &run,
+          const Bound  &bound,
+          const double &limit,
+          const Use    &use) const;
+
     /// Unit vector to the left of edge @p e.
     dealii::Tensor<1, 2>
     left_of(std::size_t e) const;
@@ -46,6 +87,8 @@ namespace talus
 
     std::vector<dealii::Point<2>> vertices_;
     bool                          is_closed_;
+    std::vector<Box<2>>           boxes_;
+    double                        round_off_; ///< upper bound for places, m
   };
 
 
@@ -66,6 +109,9 @@ namespace talus
     dealii::Tensor<1, 2>
     normal(const dealii::Point<2> &x) const override;
 
+    std::pair<double, dealii::Tensor<1, 2>>
+    distance_and_normal(const dealii::Point<2> &x) const override;
+
     bool
     contains(const dealii::Point<2> &x) const override;
 
@@ -73,9 +119,7 @@ namespace talus
     bounding_box() const override;
 
   private:
-    using BoostPoint = boost::geometry::model::d2::point_xy<double>;
-    boost::geometry::model::polygon<BoostPoint> polygon_;
-    EdgeLine                                    edges_;
+    EdgeLine edges_;
   };
 
 

@@ -50,6 +50,13 @@ namespace talus
       return true;
     }
 
+    /// Return whether the surface is defined at the place of @p x in plan.
+    bool
+    is_known_at(const dealii::Point<dim> &x) const
+    {
+      return surface_->is_known_at(x);
+    }
+
     /// Return whether @p other is the opposite side of the same surface.
     bool
     is_beyond(const Shape<dim> &other) const;

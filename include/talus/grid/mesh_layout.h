@@ -119,6 +119,10 @@ namespace talus
     dealii::Point<dim>
     lower_corner_of(const Lattice &place, unsigned int level) const;
 
+    /// Throw ExcUser if the ranks together cannot hold @p n_cells cells.
+    void
+    check_memory(double n_cells) const;
+
   protected:
     MeshLayout();
 
@@ -140,10 +144,6 @@ namespace talus
     /// smaller cells.
     bool
     box_wants_finer(const Lattice &place, unsigned int level) const;
-
-    /// Throw ExcUser if the ranks together cannot hold @p n_cells cells.
-    void
-    check_memory(double n_cells) const;
 
     /// Maximum number of cells on all @p n_ranks ranks together: p4est counts
     /// the cells of each rank in 32 bits, and deal.II numbers the nodes of all

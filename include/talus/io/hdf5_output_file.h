@@ -83,11 +83,6 @@ namespace talus
           const std::vector<Number> &rows,
           unsigned int               n_columns);
 
-    /// Write a short array without columns that all ranks know. Without
-    /// messages, except for the occasional reservation of disk space.
-    void
-    write_known(const std::string &name, const std::vector<double> &values);
-
     /// Write the text of the first rank as an array of characters.
     void
     write_text(const std::string &name, const std::string &text);
@@ -119,12 +114,6 @@ namespace talus
                hid_t              file_type,
                const Rows        &rows,
                const void        *values);
-    void
-    write_by_first_rank(const std::string &name,
-                        hid_t              memory_type,
-                        hid_t              file_type,
-                        hid_t              space,
-                        const void        *values);
     void
                                 write_attribute(const std::string &object,
                                                 const std::string &name,

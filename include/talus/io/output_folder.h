@@ -29,8 +29,18 @@ namespace talus
     void
     acquire(const std::filesystem::path &folder, MPI_Comm communicator);
 
+    /// Leave the file `lock` in the folder. Without this call a new file is
+    /// removed again: the run was refused.
+    void
+    keep()
+    {
+      new_file_.clear();
+    }
+
   private:
     int file_ = -1; ///< descriptor, on the first rank
+    /// File that did not exist before acquire(), on the first rank.
+    std::filesystem::path new_file_;
   };
 
 

@@ -103,6 +103,13 @@ namespace talus
       lock_.acquire(folder_, communicator);
     }
 
+    /// Leave the lock file in the folder, see FolderLock::keep().
+    void
+    keep_lock()
+    {
+      lock_.keep();
+    }
+
     /// Throw ExcUser if the run would overwrite files of the user, or input of
     /// the run. Changes nothing. Collective.
     void

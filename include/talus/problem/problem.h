@@ -155,7 +155,7 @@ namespace talus
       interactions.list_state(list);
     }
 
-  private:
+    /// Append remarks for the start of the log.
     template <typename List>
     void
     add_remarks(const List &remarks)
@@ -163,6 +163,7 @@ namespace talus
       remarks_.insert(remarks_.end(), remarks.begin(), remarks.end());
     }
 
+  private:
     void
     look_at_geometry(const State<dim> &state);
     void

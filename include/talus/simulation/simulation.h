@@ -52,6 +52,13 @@ namespace talus
     void
     resume();
 
+    /// Add a remark on the parameters. Call before set_up() or resume().
+    void
+    add_remark(const std::string &remark)
+    {
+      problem_.add_remarks(std::vector<Remark>{remark});
+    }
+
     /// Let run() overwrite the checkpoints of an unfinished run.
     void
     allow_overwriting()

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <sstream>
 
 #include "observers_setup.h"
@@ -168,6 +169,31 @@ namespace
 
 
 
+  // One array per number would take minutes, and hours to be read.
+  TEST_F(CheckpointTest, GivesBackManyNumbers)
+  {
+    constexpr unsigned int n = 20000;
+    std::vector<double>    many(n);
+    std::iota(many.begin(), many.end(), 0.5);
+    state.add_components("number", "m", many, n, Reduction::equal);
+    Hdf5InputFile file(write(3) / "state.h5", MPI_COMM_WORLD);
+    EXPECT_EQ(file.names("state").size(), 1u);
+    many.assign(n, 0.);
+    load_state(file, state);
+    for (unsigned int i = 0; i < n; ++i)
+      EXPECT_EQ(many[i], i + 0.5);
+
+    // A number of another version.
+    StateList others;
+    others.add("question", "-", answer, Reduction::equal);
+    EXPECT_NE(sentence_thrown_by([&]() {
+                load_state(file, others);
+              }).find("the number 'question' is missing"),
+              std::string::npos);
+  }
+
+
+
   TEST_F(CheckpointTest, GivesBackTheMesh)
   {
     const fs::path path = write(1);
@@ -293,6 +319,9 @@ namespace
     const std::string sentence = sentence_thrown_by([&]() { write(1); });
     EXPECT_NE(sentence.find("A checkpoint could not be written to '" +
                             folder.string()),
+              std::string::npos)
+      << sentence;
+    EXPECT_NE(sentence.find("There is no earlier checkpoint"),
               std::string::npos)
       << sentence;
   }

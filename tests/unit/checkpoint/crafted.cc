@@ -180,7 +180,7 @@ namespace
   {
     std::vector<Craft> crafts;
     for (const std::string name :
-         {"state/answer", "cells/points", "cells/weight", "points/mass"})
+         {"state/numbers", "cells/points", "cells/weight", "points/mass"})
       {
         const auto add = [&](const std::string          &what,
                              const hid_t                 type,
@@ -240,7 +240,7 @@ namespace
            replace_list(file, "cells/weight", std::vector<double>(32, value));
          }});
     for (const std::string name :
-         {"cells/weight", "points/mass", "state/answer"})
+         {"cells/weight", "points/mass", "state/numbers"})
       for (const unsigned int n : {0, 2, 5})
         crafts.push_back({text(n, " rows of ", name), [=](const hid_t file) {
                             replace_list(file, name, std::vector<double>(n));

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -126,6 +127,36 @@ namespace
     const auto box = shape.bounding_box();
     EXPECT_EQ(box.lower, Point<2>(0., 0.));
     EXPECT_EQ(box.upper, Point<2>(8., 6.));
+  }
+
+
+
+  // A comb of many teeth: tooth k covers x from k to k + 1/2. A query that
+  // tests all edges would take minutes in sum.
+  TEST(Shape, PolygonOfManyCorners)
+  {
+    constexpr unsigned int n_teeth = 50000;
+    std::vector<Point<2>>  vertices{{0., 0.}};
+    for (unsigned int k = 0; k < n_teeth; ++k)
+      for (const auto &[x, y] : {std::pair(0., 2.),
+                                 std::pair(0.5, 2.),
+                                 std::pair(0.5, 1.),
+                                 std::pair(1., 1.)})
+        vertices.emplace_back(k + x, y);
+    vertices.emplace_back(n_teeth, 0.);
+    const Polygon comb = polygon(vertices);
+    EXPECT_EQ(comb.bounding_box().upper, Point<2>(n_teeth, 2.));
+    for (unsigned int k = 1; k + 1 < n_teeth; ++k)
+      {
+        EXPECT_TRUE(comb.contains(Point<2>(k + 0.25, 1.5)));
+        EXPECT_TRUE(comb.contains(Point<2>(k + 0.5, 1.5)));
+        EXPECT_FALSE(comb.contains(Point<2>(k + 0.75, 1.5)));
+        EXPECT_NEAR(comb.signed_distance(Point<2>(k + 0.25, 1.9)), -0.1, 1e-12);
+        EXPECT_NEAR(comb.signed_distance(Point<2>(k + 0.75, 1.2)), 0.2, 1e-12);
+        EXPECT_EQ(comb.normal(Point<2>(k + 0.75, 1.2)), Point<2>(0., 1.));
+      }
+    EXPECT_DOUBLE_EQ(comb.signed_distance(Point<2>(-3., -4.)), 5.);
+    EXPECT_FALSE(comb.contains(Point<2>(std::nan(""), 1.)));
   }
 
 
