@@ -168,7 +168,7 @@ namespace talus
             1e-9 * domain_.length(1))
           break; // the bottom face of the mesh
         const Tensor<1, dim> normal = (*obstacles_)[nearest].normal(place);
-        if (normal[1] >= std::sqrt(0.5))
+        if (normal[1] >= min_vertical)
           return normal;
         members.erase(std::find(members.begin(), members.end(), nearest));
       }

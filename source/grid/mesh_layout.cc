@@ -93,6 +93,21 @@ namespace talus
 
 
   template <int dim>
+  double
+  MeshLayout<dim>::cell_size_of_parameters() const
+  {
+    unsigned int n_levels = 0;
+    for (const RefinementBox<dim> &box : parse_refinement_boxes(
+           refinement_boxes_,
+           box_of_parameters(),
+           PlaceCoordinates("Grid", coordinates_, dim, origin_)))
+      n_levels = std::max(n_levels, box.n_levels);
+    return cell_size_ / (1u << n_levels);
+  }
+
+
+
+  template <int dim>
   void
   MeshLayout<dim>::check() const
   {

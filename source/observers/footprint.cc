@@ -166,8 +166,8 @@ namespace talus
 
 
 
-    /// Area of the ground under the soil, m^(dim-1). Walls (steeper than 45
-    /// degrees) and overhangs do not count. Collective.
+    /// Area of the ground under the soil, m^(dim-1). Walls and overhangs do not
+    /// count. Collective.
     template <int dim>
     double
     footprint(const State<dim> &state, const Ground<dim> &ground)
@@ -195,12 +195,11 @@ namespace talus
                  const FacetContact<dim> &contact,
                  const Ground<dim>       &ground)
     {
-      const double min_vertical = std::sqrt(0.5);
-      double       area         = boundaries.seabed().area_in_contact();
+      double area = boundaries.seabed().area_in_contact();
       for (const unsigned int f : contact.constraints().loaded())
         if (const ContactFacet<dim> &facet = contact.facets().owned()[f];
             contact.impulses()[f].acts() && ground.contains(facet.obstacle) &&
-            facet.normal[1] >= min_vertical)
+            facet.normal[1] >= Ground<dim>::min_vertical)
           area += contact.constraints()[f].area;
       return Utilities::MPI::sum(area, state.communicator());
     }

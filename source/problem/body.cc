@@ -309,21 +309,23 @@ namespace talus
     /// obstacle, the two surfaces differ by the error of the piecewise planes.
     /// Volumes in m^dim.
     template <int dim>
-    std::string
+    Remark
     note_of_cut(const std::string &name, const double uncut, const double left)
     {
       const double lost = uncut - left;
       if (lost <= 1e-6 * uncut)
         return "";
-      return text(std::setprecision(6),
-                  "The obstacles take ",
-                  lost,
-                  dim == 2 ? " m^2" : " m^3",
-                  " of the body '",
-                  name,
-                  "', ",
-                  100. * lost / uncut,
-                  " % of the body: no soil is put into obstacles.");
+      // A pipe or a pile in the soil takes less than a tenth.
+      return {text(std::setprecision(6),
+                   "The obstacles take ",
+                   lost,
+                   dim == 2 ? " m^2" : " m^3",
+                   " of the body '",
+                   name,
+                   "', ",
+                   100. * lost / uncut,
+                   " % of the body: no soil is put into obstacles."),
+              lost < 0.1 * uncut ? Severity::information : Severity::look};
     }
   } // namespace
 
@@ -361,7 +363,7 @@ namespace talus
 
 
   template <int dim>
-  std::string
+  Remark
   Body<dim>::create_points(const Grid<dim>   &grid,
                            const unsigned int index,
                            const double       density,

@@ -61,7 +61,9 @@ namespace talus
                         const double     end_time,
                         const Grid<dim> &grid)
   {
-    inputs_.prepare(grid.origin(), grid.box_of_parameters());
+    inputs_.prepare(grid.origin(),
+                    grid.box_of_parameters(),
+                    grid.cell_size_of_parameters());
     bodies_.use_surfaces(inputs_.surfaces);
     const std::vector<std::string> names = bodies_.names();
     materials.assign(names, bodies_.names_of_materials());

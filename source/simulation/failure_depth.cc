@@ -5,6 +5,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 
@@ -23,7 +24,9 @@ namespace talus
     /// Sums over points, weighted by motion: volume times squared displacement.
     struct MotionSums
     {
-      std::vector<double> of_layer; ///< by depth, in parts of a cell
+      std::vector<double> of_layer;     ///< by depth, in parts of a cell
+      std::vector<double> displacement; ///< times volume, by layer
+      std::vector<double> volume;       ///< by layer
       /// Motion between 0.5 and 1.5 cells below the mudline, and the sums of
       /// motion times strength, Pa, and times unit weight, N/m^dim.
       double motion = 0., strength = 0., unit_weight = 0.;
@@ -35,10 +38,15 @@ namespace talus
     void
     sum_over_ranks(MotionSums &sums, const MPI_Comm communicator)
     {
-      sums.of_layer.resize(
+      const auto n =
         Utilities::MPI::max(static_cast<unsigned int>(sums.of_layer.size()),
-                            communicator));
-      Utilities::MPI::sum(sums.of_layer, communicator, sums.of_layer);
+                            communicator);
+      for (auto *const by_layer :
+           {&sums.of_layer, &sums.displacement, &sums.volume})
+        {
+          by_layer->resize(n);
+          Utilities::MPI::sum(*by_layer, communicator, *by_layer);
+        }
       std::vector<double> means{sums.motion, sums.strength, sums.unit_weight};
       Utilities::MPI::sum(means, communicator, means);
       sums.motion      = means[0];
@@ -60,6 +68,40 @@ namespace talus
       while (n < motion_of_layer.size() && above < 0.9 * total)
         above += motion_of_layer[n++];
       return n;
+    }
+
+
+
+    /// Return the depth of the base of the row of cells that alone shears, in
+    /// cells; 0 if the soil slips on a surface, or shears in several rows. The
+    /// mean displacement by depth then changes by halves at two successive rows:
+    /// one change is slip, and two rows change it by a quarter, a half and a
+    /// quarter. The number of changes is the square of their sum over the sum
+    /// of their squares.
+    double
+    base_of_single_row(const MotionSums &sums)
+    {
+      double     sum = 0., sum_of_squares = 0., moment = 0., above = 0.;
+      const auto n = static_cast<unsigned int>(parts_of_cell);
+      for (unsigned int begin = 0; begin < sums.volume.size() + n; begin += n)
+        {
+          double displacement = 0., volume = 0.;
+          for (unsigned int i = begin;
+               i < std::min<std::size_t>(begin + n, sums.volume.size());
+               ++i)
+            {
+              displacement += sums.displacement[i];
+              volume += sums.volume[i];
+            }
+          const double here   = volume > 0. ? displacement / volume : 0.;
+          const double change = begin > 0 ? std::abs(above - here) : 0.;
+          sum += change;
+          sum_of_squares += change * change;
+          moment += change * begin / parts_of_cell;
+          above = here;
+        }
+      const double n_changes = sum > 0. ? sum * sum / sum_of_squares : 0.;
+      return n_changes > 1.5 && n_changes < 2.3 ? moment / sum + 0.5 : 0.;
     }
 
 
@@ -93,10 +135,13 @@ namespace talus
 
 
 
+  // On a fixed base the cells of the lowest row have the stress of mid-row, and
+  // the soil the larger stress of the base (doc/method.md, section 12).
   template <int dim>
-  std::string
-  FailureDepth<dim>::note(const State<dim>   &state,
-                          const Problem<dim> &problem) const
+  std::vector<Remark>
+  FailureDepth<dim>::notes(const State<dim>   &state,
+                           const Problem<dim> &problem,
+                           const double        factor) const
   {
     const Points<dim> &points  = state.points;
     const auto         mudline = problem.bodies().mudline();
@@ -112,8 +157,13 @@ namespace talus
           points.data(points.reference_volume)[p] * square_[p];
         const auto layer = static_cast<unsigned int>(parts_of_cell * depth / h);
         if (layer >= sums.of_layer.size())
-          sums.of_layer.resize(layer + 1, 0.);
+          for (auto *const by_layer :
+               {&sums.of_layer, &sums.displacement, &sums.volume})
+            by_layer->resize(layer + 1, 0.);
         sums.of_layer[layer] += motion;
+        sums.displacement[layer] +=
+          points.data(points.reference_volume)[p] * std::sqrt(square_[p]);
+        sums.volume[layer] += points.data(points.reference_volume)[p];
         if (std::abs(depth - h) > 0.5 * h)
           continue;
         const unsigned int body     = points.data(points.body)[p];
@@ -127,17 +177,30 @@ namespace talus
     const double n_cells = n_moving_layers(sums.of_layer) / parts_of_cell;
     if (n_cells == 0.)
       return {};
-    const std::string result = text(std::setprecision(3),
-                                    "Nine tenths of the mechanism lie within ",
-                                    n_cells * h,
-                                    " m of the mudline, ",
-                                    counted(n_cells, "cell"),
-                                    ".");
-    if (n_cells >= few_cells || sums.motion == 0.)
-      return result;
-    return result +
-           sentence_on_coarse_cells(sums.strength / sums.motion,
-                                    h * sums.unit_weight / sums.motion);
+    std::vector<Remark> result = {
+      text(std::setprecision(3),
+           "Nine tenths of the mechanism lie within ",
+           n_cells * h,
+           " m of the mudline, ",
+           counted(n_cells, "cell"),
+           ".")};
+    if (n_cells < few_cells && sums.motion > 0.)
+      result[0].sentence +=
+        sentence_on_coarse_cells(sums.strength / sums.motion,
+                                 h * sums.unit_weight / sums.motion);
+    if (const double base = base_of_single_row(sums); base > 0.5)
+      result.emplace_back(
+        text(std::setprecision(4),
+             "The soil shears in one row of cells, whose stress is that of its "
+             "middle, ",
+             (base - 0.5) * h,
+             " m below the mudline. If the soil may shear at the base of the "
+             "row, ",
+             base * h,
+             " m deep, the factor of safety is only ",
+             factor * (base - 0.5) / base,
+             ". Smaller cells approach that number."));
+    return result;
   }
 
 

@@ -374,9 +374,15 @@ namespace talus
     if (!stages_.contain(Stage::equilibrium) ||
         equilibrium().measure() == StrainMeasure::large)
       tell_of_well_balanced_load();
-    if (const std::string note = failure_depth_.note(state_, problem_);
-        !note.empty())
-      log_.say(LogLevel::result, note);
+    const auto notes =
+      failure_depth_.notes(state_,
+                           problem_,
+                           0.5 * (strength_reduction_.lower() +
+                                  strength_reduction_.upper()));
+    if (!notes.empty())
+      log_.say(LogLevel::result, notes[0].sentence);
+    if (notes.size() > 1)
+      log_.remark(notes[1]);
   }
 
 

@@ -11,6 +11,7 @@
 #include <talus/terrain/named_surface.h>
 #include <talus/terrain/plan_place.h>
 #include <talus/terrain/project_raster.h>
+#include <talus/terrain/smooth_raster.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -355,7 +356,8 @@ namespace talus
   std::shared_ptr<const Surface<dim>>
   NamedSurface<dim>::read(const std::filesystem::path &folder,
                           const Point<3>              &origin,
-                          const Box<dim>              &mesh) const
+                          const Box<dim>              &mesh,
+                          const double                 cell_size) const
   {
     if (!outline_.empty())
       return read_outline(origin);
@@ -363,6 +365,7 @@ namespace talus
       return read_outline_file(file(folder), origin);
     const auto corners = section();
     Raster     raster = read_file(file(folder), plan_of(mesh, origin, corners));
+    smooth(raster, cell_size);
     return std::make_shared<Terrain<dim>>(std::make_shared<const HeightField>(
                                             std::move(raster)),
                                           file_,

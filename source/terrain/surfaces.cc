@@ -88,7 +88,8 @@ namespace talus
   Surfaces<dim>::prepare(const Constants             &constants,
                          const std::filesystem::path &folder,
                          const Point<3>              &origin,
-                         const Box<dim>              &mesh)
+                         const Box<dim>              &mesh,
+                         const double                 cell_size)
   {
     constants_ = &constants;
     origin_    = origin;
@@ -100,11 +101,11 @@ namespace talus
       {
         check_name(named->name());
         named->check_entries();
-        surfaces_.emplace_back(named->name(),
-                               named->is_expression()
-                                 ? surface(named->path("Expression"),
-                                           named->expression())
-                                 : named->read(folder, origin, mesh));
+        surfaces_.emplace_back(
+          named->name(),
+          named->is_expression()
+            ? surface(named->path("Expression"), named->expression())
+            : named->read(folder, origin, mesh, cell_size));
         if (named->has_file())
           files_.push_back({"raster of " + named->name(),
                             "raster",
@@ -239,7 +240,13 @@ namespace talus
                                 lowest,
                                 " m to ",
                                 highest,
-                                " m."));
+                                map->smoothed_over == 0.
+                                  ? " m."
+                                  : text(" m, smoothed over the smallest cells "
+                                         "of the mesh, ",
+                                         map->smoothed_over,
+                                         " m, which cannot follow smaller "
+                                         "forms.")));
         }
     return result;
   }

@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 using namespace talus;
 using namespace talus::cases;
@@ -37,6 +39,16 @@ TEST(InfiniteSlope, FactorOfSafety)
                  (F / exact - 1.) / (0.5 * h / H),
                  1.,
                  0.05);
+      // The log tells the factor for shear at the base.
+      std::ifstream     log(slope.folder() / "log.txt");
+      const std::string text_of_log{std::istreambuf_iterator<char>(log), {}};
+      const std::string words = "the factor of safety is only ";
+      const auto        place = text_of_log.find(words);
+      ASSERT_NE(place, std::string::npos) << text_of_log;
+      gates.near(text("bound in the log, h = ", h, " m"),
+                 std::stod(text_of_log.substr(place + words.size())),
+                 exact,
+                 0.001);
     }
 }
 

@@ -45,12 +45,13 @@ namespace talus::cases
   StaticCase<dim>::StaticCase(const std::string &file,
                               const std::string &name,
                               const Overrides   &overrides)
-    : case_(file, quiet_in(name) + overrides)
+    : folder_(folder_of(name))
+    , case_(file, quiet_in(name) + overrides)
     , simulation_(*case_.operator->())
     , points_(case_.points())
   {
     case_->run();
-    newton_ = Table(folder_of(name) / "newton.csv");
+    newton_ = Table(folder_ / "newton.csv");
   }
 
 

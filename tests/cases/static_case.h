@@ -5,6 +5,7 @@
 #include "case.h"
 #include "verification.h"
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,12 @@ namespace talus::cases
       return points_;
     }
 
+    const std::filesystem::path &
+    folder() const
+    {
+      return folder_;
+    }
+
     /// Middle of the bracket of the factor of safety.
     double
     factor_of_safety() const;
@@ -44,6 +51,7 @@ namespace talus::cases
     }
 
   private:
+    std::filesystem::path  folder_;
     Case<dim>              case_;
     const Simulation<dim> &simulation_;
     const Points<dim>     &points_;

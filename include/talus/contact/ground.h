@@ -67,9 +67,12 @@ namespace talus
     double
     elevation(const dealii::Point<dim> &x) const;
 
+    /// Vertical component of the unit normal of a surface of 80 degrees. Steeper
+    /// surfaces are walls: no soil lies on them.
+    static constexpr double min_vertical = 0.17364817766693033;
+
     /// Return the upward unit normal of the layers of soil at @p x: the normal
-    /// of the ground below @p x. Obstacles with a surface steeper than 45
-    /// degrees there are walls and are ignored.
+    /// of the ground below @p x, without walls.
     dealii::Tensor<1, dim>
     layer_normal(const dealii::Point<dim> &x) const;
 

@@ -45,6 +45,10 @@ namespace talus
     Box<dim>
     box_of_parameters() const;
 
+    /// Edge of the smallest cells requested by the parameters, m.
+    double
+    cell_size_of_parameters() const;
+
     /// Box filled by the mesh.
     const Box<dim> &
     domain() const

@@ -2,6 +2,7 @@
 #ifndef talus_problem_body_h
 #define talus_problem_body_h
 
+#include <talus/base/remark.h>
 #include <talus/geometry/region.h>
 #include <talus/geometry/shape_parameters.h>
 #include <talus/grid/grid.h>
@@ -42,7 +43,7 @@ namespace talus
     /// if the body is not inside the mesh, gets no points, or overlaps other
     /// bodies or solids. Returns a note for the log on the volume removed by
     /// solids; empty if none. Collective.
-    std::string
+    Remark
     create_points(const Grid<dim> &grid,
                   unsigned int     index,
                   double           density,

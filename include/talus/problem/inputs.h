@@ -22,12 +22,15 @@ namespace talus
     {}
 
     /// Read the surfaces. @p origin of the mesh on the map: easting, northing,
-    /// height, m. @p mesh is the box of the mesh. Throws ExcUser.
+    /// height, m. @p mesh is the box of the mesh, @p cell_size that of the
+    /// smallest cells, m. Throws ExcUser.
     void
-    prepare(const dealii::Point<3> &origin, const Box<dim> &mesh)
+    prepare(const dealii::Point<3> &origin,
+            const Box<dim>         &mesh,
+            const double            cell_size)
     {
       constants.values(); // throws, also if no expression needs a constant
-      surfaces.prepare(constants, folder, origin, mesh);
+      surfaces.prepare(constants, folder, origin, mesh, cell_size);
     }
 
     /// Add the files to the state: a resumed run needs the same files.

@@ -77,11 +77,13 @@ namespace talus
 
     /// Read the raster, from @p folder, or the outline. @p origin of the mesh
     /// on the map: easting, northing, height, m. @p mesh is the box of the
-    /// mesh, around which a large raster is read. Throws ExcUser.
+    /// mesh, around which a large raster is read; the raster is smoothed over
+    /// @p cell_size, m. Throws ExcUser.
     std::shared_ptr<const Surface<dim>>
     read(const std::filesystem::path &folder,
          const dealii::Point<3>      &origin,
-         const Box<dim>              &mesh) const;
+         const Box<dim>              &mesh,
+         double                       cell_size) const;
 
     /// Return the corners of the line on the map along which the raster is cut,
     /// 2-D only. Throws ExcUser if the entry is no line.

@@ -28,12 +28,13 @@ namespace talus
 
     /// Read the files, from @p folder; call after parsing. @p origin of the
     /// mesh on the map: easting, northing, height, m. @p mesh is the box of the
-    /// mesh. Throws ExcUser.
+    /// mesh. Rasters are smoothed over @p cell_size, m. Throws ExcUser.
     void
     prepare(const Constants             &constants,
             const std::filesystem::path &folder,
             const dealii::Point<3>      &origin,
-            const Box<dim>              &mesh);
+            const Box<dim>              &mesh,
+            double                       cell_size = 0.);
 
     std::shared_ptr<const Surface<dim>>
     surface(const std::string &path,

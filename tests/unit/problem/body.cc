@@ -350,8 +350,10 @@ namespace
   {
     std::string notes;
     for (unsigned int b = 0; b < all.bodies.size(); ++b)
-      notes += all.bodies[b]->create_points(
-        all.grid, b, density, all.points, {&solid});
+      notes += all.bodies[b]
+                 ->create_points(all.grid, b, density, all.points, {&solid})
+                 .sentence;
+
     return notes;
   }
 

@@ -8,22 +8,36 @@ namespace failure_depth_test
   struct Nothing
   {};
 
-  /// Sentences on a mechanism in which all soil down to @p depth, m, below the
-  /// mudline moves equally; points lie 0.125, 0.375, 0.625 and 0.875 m below.
-  std::string
-  note(const double depth, const std::string &entries = "")
+  /// Sentences on a mechanism that moves by 5e-5 times share(depth in m) [m];
+  /// points lie 0.125, 0.375, 0.625 and 0.875 m below the mudline.
+  template <typename Share>
+  std::vector<talus::Remark>
+  notes(const Share &share, const std::string &entries = "")
   {
     const WholeProblem<Nothing> soil(entries);
     std::vector<double>         mechanism(2 * soil.points.size(), 0.);
     for (unsigned int p = 0; p < soil.points.size(); ++p)
-      if (1. - soil.points.data(soil.points.position, 1)[p] < depth)
-        {
-          mechanism[2 * p]     = 3e-5;
-          mechanism[2 * p + 1] = -4e-5;
-        }
+      {
+        const double moves =
+          share(1. - soil.points.data(soil.points.position, 1)[p]);
+        mechanism[2 * p]     = 3e-5 * moves;
+        mechanism[2 * p + 1] = -4e-5 * moves;
+      }
     talus::FailureDepth<2> failure;
     failure.record(mechanism);
-    return failure.note(soil, soil.problem);
+    return failure.notes(soil, soil.problem, 2.);
+  }
+
+
+
+  /// First sentence on a mechanism in which all soil down to @p depth, m,
+  /// moves equally; empty without sentences.
+  std::string
+  note(const double depth, const std::string &entries = "")
+  {
+    const auto all =
+      notes([depth](const double y) { return y < depth ? 1. : 0.; }, entries);
+    return all.empty() ? "" : all[0].sentence;
   }
 } // namespace failure_depth_test
 
@@ -56,4 +70,24 @@ TEST(FailureDepth, NothingIsSaidWithoutMotionOrMudline)
   using failure_depth_test::note;
   EXPECT_EQ(note(0.), "");
   EXPECT_EQ(note(2., "set Initial displacement = 0.01*x; 0\n"), "");
+}
+
+
+
+// Cells of 0.5 m, in soil 1 m thick. The stress of the row that shears at the
+// base is that 0.75 m deep, three quarters of the stress at the base; a slip
+// below the soil, and shear all over the thickness, are no such row.
+TEST(FailureDepth, SingleRowThatShears)
+{
+  using failure_depth_test::notes;
+  const auto row =
+    notes([](const double y) { return std::min(1., 2. - 2. * y); });
+  ASSERT_EQ(row.size(), 2u);
+  const std::string told = row[1].text();
+  EXPECT_EQ(row[1].severity, talus::Severity::look);
+  EXPECT_TRUE(contains(told, "its middle, 0.75 m below the mudline")) << told;
+  EXPECT_TRUE(contains(told, "1 m deep, the factor of safety is only 1.5."))
+    << told;
+  EXPECT_EQ(notes([](double) { return 1.; }).size(), 1u);
+  EXPECT_EQ(notes([](const double y) { return y < 0.5 ? 1. : 0.; }).size(), 1u);
 }
