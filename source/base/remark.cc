@@ -9,7 +9,10 @@ namespace talus
   std::string
   Remark::text() const
   {
-    std::string result = (subject.empty() ? "" : subject + ": ") + sentence;
+    // A sentence may begin with the name of a file.
+    if (subject.empty())
+      return sentence;
+    std::string result = subject + ": " + sentence;
     result.front()     = static_cast<char>(std::toupper(result.front()));
     return result;
   }

@@ -11,8 +11,8 @@ namespace talus
 
   namespace
   {
-    // No interface of soil has this coefficient of friction: whoever gives it
-    // wants the soil to shear above the surface.
+    // No interface of soil has this coefficient of friction: a larger one is
+    // given to let the soil shear above the surface.
     constexpr double rough = 2.;
 
 

@@ -438,8 +438,8 @@ namespace talus
   Simulation<dim>::begin_files()
   {
     check_output_folder();
-    output_.keep_lock();
     output_.begin(state_, end_time_, parameters_, beginning());
+    output_.keep_lock();
     static_stages_.begin(output_.folder(), beginning());
     checkpoint_.begin(output_.folder(),
                       state_.communicator(),

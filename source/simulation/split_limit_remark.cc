@@ -23,17 +23,13 @@ namespace talus
       why += counted(unsplit.at_mesh_limit, "point") +
              " would get children more than half a cell outside the mesh (use "
              "a larger mesh or smaller cells). ";
-    // A limit below the default was chosen by the user.
-    return {text("At t = ",
-                 state.time,
-                 " s soil is stretched too far without a split, so that it may "
-                 "tear: ",
-                 why,
-                 "The columns 'points at ... limit' of statistics.csv continue "
-                 "the count."),
-            unsplit.at_mesh_limit == 0 && splitter_.has_lowered_limit()
-              ? Severity::information
-              : Severity::look};
+    return text("At t = ",
+                state.time,
+                " s soil is stretched too far without a split, so that it may "
+                "tear: ",
+                why,
+                "The columns 'points at ... limit' of statistics.csv continue "
+                "the count.");
   }
 
 

@@ -698,7 +698,7 @@ class CommandLine(Case):
                      "Materials/clay/Remoulded strength ratio=0.5", "thin.prm"]
         result = self.run_talus("--validate", *arguments)
         self.assert_succeeds(
-            result, "with 16 cells of 1 m; and with 12 points",
+            result, "with 16 cells of 1 m, and with 12 points",
             "'block', lies in soil 1.5 cells of 1 m thick", "the time step is 0.0",
             "about 92 time steps", "million point-steps per second",
             "MB of memory on each rank")
@@ -706,7 +706,8 @@ class CommandLine(Case):
         self.assertEqual(len(remarks), 4, result.stdout)
         for number, words in enumerate(
                 ("thin.prm, line 2: 'End time' is set again, after line 1",
-                 "Body 'block': the soil is 1.5 cells", "Section /Materials/clay: the material softens",
+                 "Body 'block': the soil is 1.5 cells",
+                 "Section /Materials/clay: the material softens",
                  "/Materials/clay: `Poisson's ratio` is 0.3"), 1):
             self.assertIn(f"Remark {number}: ", remarks[number - 1])
             self.assertIn(words, remarks[number - 1])
@@ -723,7 +724,7 @@ class CommandLine(Case):
     def test_remarks_are_numbered_on_when_a_run_is_resumed(self):
         """Soil of which a half leaves the ground is a remark of the run."""
         (self.folder / "thin.prm").write_text(
-            GOOD.replace("3, 2", "3, 1.5").replace("Bottom = roller", "Bottom = seabed"))
+            GOOD.replace("3, 2", "3, 0.5").replace("Bottom = roller", "Bottom = seabed"))
         arguments = ["--output", "results", "thin.prm", "--set",
                      "Output/Statistics interval=0.01", "--set",
                      "Body force/Expression=0; if(t > 0.05 && x > 2, 60, 0)"]

@@ -62,7 +62,7 @@ namespace
     return n;
   }
 
-  const std::string remark = "points are stretched too far and cannot be split";
+  const std::string remark = "soil is stretched too far without a split";
 } // namespace
 
 

@@ -34,17 +34,8 @@ namespace talus
   template <int dim>
   class Splitter : public dealii::ParameterAcceptor
   {
-    static constexpr unsigned int default_maximum_generation = 8;
-
   public:
     Splitter();
-
-    /// Whether the user chose fewer successive splits than the default.
-    bool
-    has_lowered_limit() const
-    {
-      return maximum_generation_ < default_maximum_generation;
-    }
 
     /// Mark the points of the batch that must be split, and the axes to split
     /// along. Points may have moved out of the cell into which they are sorted.
@@ -212,7 +203,7 @@ namespace talus
     double       threshold_          = 1.4;
     std::string  directions_         = "stretched";
     double       minimum_length_     = 0.7;
-    unsigned int maximum_generation_ = default_maximum_generation;
+    unsigned int maximum_generation_ = 8;
     unsigned int maximum_points_     = 10000000;
 
     struct SplitMark

@@ -33,8 +33,7 @@ namespace talus
       : Remark(std::string(what))
     {}
 
-    /// Return subject and sentence with a capital letter; not for an empty
-    /// sentence.
+    /// Return subject and sentence.
     std::string
     text() const;
 
