@@ -80,6 +80,7 @@ namespace talus
         {"Water/", "Density", 0.1, 5e3, " kg/m^3"},
         {"Water/", "Added mass coefficient", 1e-4, 10., ""},
         {"Obstacles/", "Mass", 1e-6, 1e10, " kg"},
+        {"", "Friction coefficient", 1e-4, 100., ""},
         {"", "Slip to remould", 1e-6, 1e3, " m"},
         {"", "Film consistency", 1e-6, 1e6, " Pa s^n"},
         {"", "Film thickness", 1e-6, 1e2, " m"},

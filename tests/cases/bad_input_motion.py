@@ -225,6 +225,6 @@ class BadInputMotion(Case):
                                 "Materials/clay/Undrained shear strength=7e3"])
         self.assertEqual(result.returncode, 0, result.stderr)
         log = (self.results / "log.txt").read_text()
-        for words in ("the body 'block' bears at 8 of its points",
+        for words in ("Body 'block': the K0 stress is more than the soil bears at 8 points",
                       "up to 1.44338 times", "'Bodies/block/K0'"):
             self.assertIn(words, log)

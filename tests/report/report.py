@@ -152,7 +152,7 @@ class Report(ReportCase):
         words = "stretched too far and could not be split"
         page = self.report(self.slide("split"))
         self.assertNotIn(words, page.said("notices"))
-        self.assertNotIn("cannot be split", page.said("log"))
+        self.assertNotIn("without a split", page.said("log"))
         self.assertEqual(float(page.values["points at generation limit"]), 0)
         folder = self.slide("unsplit", "Splitting/Maximum generation=0")
         page = self.report(folder)
@@ -161,8 +161,8 @@ class Report(ReportCase):
         self.assertIn(f"Up to {max(counts):.0f} points were {words}", page.said("notices"))
         self.assertIn("Raise that number", page.said("notices"))
         self.assertEqual(float(page.values["points at generation limit"]), max(counts))
-        self.assertIn("cannot be split", page.said("log"))
-        self.assertEqual((folder / "log.txt").read_text().count("cannot be split"), 1)
+        self.assertIn("without a split", page.said("log"))
+        self.assertEqual((folder / "log.txt").read_text().count("without a split"), 1)
 
     def test_end_at_rest(self):
         """A run that ends before its end time, since the soil is at rest, has finished."""
