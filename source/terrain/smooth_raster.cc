@@ -9,8 +9,8 @@ namespace talus
   namespace
   {
     /// Smooth the @p n values from @p first on, @p stride apart, over @p reach
-    /// values on each side, with sums up to each value and the numbers of values
-    /// since the last missing one.
+    /// values on each side, with sums up to each value and the numbers of
+    /// values since the last missing one.
     void
     smooth_line(double           *first,
                 const std::size_t stride,

@@ -67,8 +67,8 @@ namespace talus
     double
     elevation(const dealii::Point<dim> &x) const;
 
-    /// Vertical component of the unit normal of a surface of 80 degrees. Steeper
-    /// surfaces are walls: no soil lies on them.
+    /// Vertical component of the unit normal of a surface of 80 degrees.
+    /// Steeper surfaces are walls: no soil lies on them.
     static constexpr double min_vertical = 0.17364817766693033;
 
     /// Return the upward unit normal of the layers of soil at @p x: the normal

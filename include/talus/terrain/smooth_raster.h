@@ -6,8 +6,8 @@
 
 namespace talus
 {
-  /// Replace each value of @p raster by the mean over the square of @p width, m,
-  /// around it; a raster with cells wider than half of the square stays as
+  /// Replace each value of @p raster by the mean over the square of @p width,
+  /// m, around it; a raster with cells wider than half of the square stays as
   /// it is. Near edges and missing values
   /// the square shrinks to equal arms, so that a plane is kept everywhere.
   void
