@@ -74,10 +74,10 @@ namespace talus
 
     /// Return the depth of the base of the row of cells that alone shears, in
     /// cells; 0 if the soil slips on a surface, or shears in several rows. The
-    /// mean displacement by depth then changes by halves at two successive
-    /// rows: one change is slip, and two rows change it by a quarter, a half and
-    /// a quarter. The number of changes is the square of their sum over the sum
-    /// of their squares.
+    /// mean displacement by depth then changes by halves at two rows; slip is
+    /// one change, and two rows change it by a quarter, a half and a quarter.
+    /// The number of changes is the square of their sum over the sum of their
+    /// squares.
     double
     base_of_single_row(const MotionSums &sums)
     {
