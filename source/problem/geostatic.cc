@@ -259,13 +259,11 @@ namespace talus
 
 
     /// Return a note, not an error: the first step returns the stress to the
-    /// yield surface, but the soil starts out of balance. This is how a slide
-    /// is released, and a mistake in a slope that shall be at rest at first.
+    /// yield surface, but the soil starts out of balance.
     Remark
     note_of_yielding(const std::string &name,
                      const double       n_points,
-                     const double       ratio,
-                     const bool         is_released)
+                     const double       ratio)
     {
       return {text("the K0 stress is more than the soil bears at ",
                    counted(n_points, "point"),
@@ -277,7 +275,7 @@ namespace talus
                    "rest needs more strength or a 'Bodies/",
                    name,
                    "/K0' closer to 1."),
-              is_released ? Severity::information : Severity::look,
+              Severity::look,
               "body '" + name + "'"};
     }
   } // namespace
@@ -293,7 +291,6 @@ namespace talus
                        const Materials<dim>                          &materials,
                        const Tensor<1, dim>                          &gravity,
                        const Ground<dim>                             &ground,
-                       const bool     is_released,
                        const MPI_Comm communicator)
   {
     std::vector<double> density, mass_above;
@@ -332,8 +329,8 @@ namespace talus
         n_yielding = Utilities::MPI::sum(n_yielding, communicator);
         largest    = Utilities::MPI::max(largest, communicator);
         if (n_yielding > 0)
-          notes.push_back(note_of_yielding(
-            bodies[b]->name(), n_yielding, largest, is_released));
+          notes.push_back(
+            note_of_yielding(bodies[b]->name(), n_yielding, largest));
       }
     return notes;
   }

@@ -132,14 +132,18 @@ namespace talus
                            inputs_,
                            state.grid.domain_before_growth(),
                            state.communicator());
-    add_remarks(
+    auto on_stress =
       set_geostatic_stress(points,
                            bodies_.list(),
                            materials,
                            loading.share_of_gravity(0.) * loading.gravity(),
                            Ground<dim>(state.grid.domain(), &obstacles),
-                           trigger.end_time() <= 0.,
-                           state.communicator()));
+                           state.communicator());
+    // Without a trigger a slide begins where the soil cannot bear its stress.
+    for (Remark &remark : on_stress)
+      if (trigger.end_time() <= 0.)
+        remark.severity = Severity::information;
+    add_remarks(on_stress);
     look_at_geometry(state);
     if (bodies_.may_leave_cells())
       send_points_to_owners(points, state.grid);

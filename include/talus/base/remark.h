@@ -8,7 +8,7 @@
 
 namespace talus
 {
-  /// What a remark means for the results.
+  /// Meaning of a remark for the results.
   enum class Severity
   {
     information, ///< an intended consequence of the parameters

@@ -70,7 +70,7 @@ namespace talus
     LogFile       file_;
     bool          is_open_   = false;
     unsigned long n_remarks_ = 0;
-    unsigned long n_wrong_   = 0; ///< of these, results must not be used
+    unsigned long n_wrong_   = 0; ///< remarks on results that must not be used
   };
 } // namespace talus
 

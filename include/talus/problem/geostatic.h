@@ -45,7 +45,6 @@ namespace talus
                        const Materials<dim>                          &materials,
                        const dealii::Tensor<1, dim>                  &gravity,
                        const Ground<dim>                             &ground,
-                       bool     is_released,
                        MPI_Comm communicator);
 } // namespace talus
 

@@ -144,7 +144,6 @@ namespace geostatic_test
                                   materials,
                                   gravity,
                                   Ground<2>(grid.domain(), &obstacles),
-                                  true,
                                   MPI_COMM_SELF);
     }
 
