@@ -297,13 +297,13 @@ class Ranks(Runs):
         for n_ranks in (1, 3):
             result = subprocess.run(
                 [MPIEXEC, "-n", str(n_ranks), TALUS, "--validate", "--set",
-                 "Grid/Cell size=2.5", "--output", "validate", PRM / "first-slope.prm"],
+                 "Grid/Cell size=5", "--output", "validate", PRM / "first-slope.prm"],
                 cwd=self.folder, capture_output=True, text=True, timeout=600)
             self.assertEqual(result.returncode, 0, result.stderr)
             said.append([line for line in result.stdout.splitlines() if line.startswith(
                 ("Remark", "The thinnest", "The mesh")) or " is valid" in line])
         self.assertEqual(said[0], said[1])
-        self.assertIn("1.6 cells of 2.5 m", said[0][1])
+        self.assertIn("0.8 cells of 5 m", said[0][1])
         self.assertTrue(said[0][-1].endswith(", with 1 remark."), said[0])
 
     def test_folder_of_another_run(self):
