@@ -2,8 +2,18 @@
 #include <talus/base/errors.h>
 #include <talus/simulation/split_limit_remark.h>
 
+#include <deal.II/base/mpi.h>
+
 namespace talus
 {
+  using namespace dealii;
+
+  // Share of the points that is told: a few points among thousands of
+  // neighbours leave no gap.
+  constexpr double told_share = 1e-3;
+
+
+
   template <int dim>
   Remark
   SplitLimitRemark<dim>::remark(const State<dim> &state) const
@@ -12,7 +22,9 @@ namespace talus
       splitter_.count_unsplit(state.points,
                               state.grid,
                               state.constants.box_shape.rule);
-    if (unsplit.at_generation_limit + unsplit.at_mesh_limit == 0)
+    if (unsplit.at_generation_limit + unsplit.at_mesh_limit <=
+        told_share *
+          Utilities::MPI::sum(state.points.size(), state.communicator()))
       return "";
     std::string why;
     if (unsplit.at_generation_limit > 0)

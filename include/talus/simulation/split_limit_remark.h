@@ -8,9 +8,9 @@
 namespace talus
 {
   /// Writes a remark to the log, once per run, when a limit of the splitter
-  /// prevents the split of overstretched points: soil may tear there. Checked
-  /// when a row of statistics is due. Points shorter than `Minimum length` do
-  /// not count, because the boxes fit into the cells.
+  /// prevents the split of more than a thousandth of the points: soil may tear
+  /// there. Checked when a row of statistics is due. Points shorter than
+  /// `Minimum length` do not count, because the boxes fit into the cells.
   template <int dim>
   class SplitLimitRemark : public RemarkObserver<dim>
   {
