@@ -159,8 +159,8 @@ namespace talus
 
 
 
-  // From the places at the start, obstacles have moved over cells in between,
-  // which Facets::update() does not cut again.
+  // Obstacles may have moved since the start over cells that Facets::update()
+  // does not cut again: all cells are cut.
   /// Give the impulses of a checkpoint to the facets, as soon as facets exist.
   template <int dim>
   void

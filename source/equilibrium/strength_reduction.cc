@@ -228,7 +228,7 @@ namespace talus
                   cannot_stand);
     return text(std::setprecision(6),
                 "The factor of safety is ",
-                0.5 * (lower_ + upper_),
+                factor(),
                 ": the soil stands with its strength divided by ",
                 lower_,
                 " and fails with ",

@@ -10,8 +10,8 @@
 
 namespace talus
 {
-  // One spelling for all: small letters, blanks between words, British, in the
-  // singular.
+  // Names are compared in one spelling: small letters, blanks between words,
+  // British, in the singular.
   double
   length_of_unit(std::string name)
   {

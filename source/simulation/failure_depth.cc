@@ -26,10 +26,23 @@ namespace talus
     {
       std::vector<double> of_layer;     ///< by depth, in parts of a cell
       std::vector<double> displacement; ///< times volume, by layer
-      std::vector<double> volume;       ///< by layer
+      std::vector<double> volume_of;    ///< by layer
       /// Motion between 0.5 and 1.5 cells below the mudline, and the sums of
       /// motion times strength, Pa, and times unit weight, N/m^dim.
       double motion = 0., strength = 0., unit_weight = 0.;
+
+      /// Add a point of @p volume in @p layer with the square of its
+      /// displacement.
+      void
+      add(const unsigned int layer, const double volume, const double square)
+      {
+        if (layer >= of_layer.size())
+          for (auto *const by_layer : {&of_layer, &displacement, &volume_of})
+            by_layer->resize(layer + 1, 0.);
+        of_layer[layer] += volume * square;
+        displacement[layer] += volume * std::sqrt(square);
+        volume_of[layer] += volume;
+      }
     };
 
 
@@ -42,7 +55,7 @@ namespace talus
         Utilities::MPI::max(static_cast<unsigned int>(sums.of_layer.size()),
                             communicator);
       for (auto *const by_layer :
-           {&sums.of_layer, &sums.displacement, &sums.volume})
+           {&sums.of_layer, &sums.displacement, &sums.volume_of})
         {
           by_layer->resize(n);
           Utilities::MPI::sum(*by_layer, communicator, *by_layer);
@@ -83,15 +96,16 @@ namespace talus
     {
       double     sum = 0., sum_of_squares = 0., moment = 0., above = 0.;
       const auto n = static_cast<unsigned int>(parts_of_cell);
-      for (unsigned int begin = 0; begin < sums.volume.size() + n; begin += n)
+      for (unsigned int begin = 0; begin < sums.volume_of.size() + n;
+           begin += n)
         {
           double displacement = 0., volume = 0.;
           for (unsigned int i = begin;
-               i < std::min<std::size_t>(begin + n, sums.volume.size());
+               i < std::min<std::size_t>(begin + n, sums.volume_of.size());
                ++i)
             {
               displacement += sums.displacement[i];
-              volume += sums.volume[i];
+              volume += sums.volume_of[i];
             }
           const double here   = volume > 0. ? displacement / volume : 0.;
           const double change = begin > 0 ? std::abs(above - here) : 0.;
@@ -102,6 +116,28 @@ namespace talus
         }
       const double n_changes = sum > 0. ? sum * sum / sum_of_squares : 0.;
       return n_changes > 1.5 && n_changes < 2.3 ? moment / sum + 0.5 : 0.;
+    }
+
+
+
+    /// Return a remark on the shear in a row whose base is @p base cells of
+    /// size @p h, m, deep, with the factor of safety @p factor. The cells of
+    /// the row have the stress of its middle, and the soil at its base a larger
+    /// one (doc/method.md, section 12).
+    Remark
+    remark_on_single_row(const double base, const double h, const double factor)
+    {
+      return text(
+        std::setprecision(4),
+        "The soil shears in one row of cells, whose stress is that of "
+        "its middle, ",
+        (base - 0.5) * h,
+        " m below the mudline. If the soil may shear at the base of "
+        "the row, ",
+        base * h,
+        " m deep, the factor of safety is only ",
+        factor * (base - 0.5) / base,
+        ". Smaller cells approach that number.");
     }
 
 
@@ -135,8 +171,6 @@ namespace talus
 
 
 
-  // On a fixed base the cells of the lowest row have the stress of mid-row, and
-  // the soil the larger stress of the base (doc/method.md, section 12).
   template <int dim>
   std::vector<Remark>
   FailureDepth<dim>::notes(const State<dim>   &state,
@@ -153,19 +187,13 @@ namespace talus
         const double depth = mudline(x) - x[1];
         if (!(depth >= 0.))
           continue;
-        const double motion =
-          points.data(points.reference_volume)[p] * square_[p];
-        const auto layer = static_cast<unsigned int>(parts_of_cell * depth / h);
-        if (layer >= sums.of_layer.size())
-          for (auto *const by_layer :
-               {&sums.of_layer, &sums.displacement, &sums.volume})
-            by_layer->resize(layer + 1, 0.);
-        sums.of_layer[layer] += motion;
-        sums.displacement[layer] +=
-          points.data(points.reference_volume)[p] * std::sqrt(square_[p]);
-        sums.volume[layer] += points.data(points.reference_volume)[p];
+        const double volume = points.data(points.reference_volume)[p];
+        sums.add(static_cast<unsigned int>(parts_of_cell * depth / h),
+                 volume,
+                 square_[p]);
         if (std::abs(depth - h) > 0.5 * h)
           continue;
+        const double       motion   = volume * square_[p];
         const unsigned int body     = points.data(points.body)[p];
         const auto        &material = problem.materials.of_body(body);
         sums.motion += motion;
@@ -189,17 +217,7 @@ namespace talus
         sentence_on_coarse_cells(sums.strength / sums.motion,
                                  h * sums.unit_weight / sums.motion);
     if (const double base = base_of_single_row(sums); base > 0.5)
-      result.emplace_back(
-        text(std::setprecision(4),
-             "The soil shears in one row of cells, whose stress is that of its "
-             "middle, ",
-             (base - 0.5) * h,
-             " m below the mudline. If the soil may shear at the base of the "
-             "row, ",
-             base * h,
-             " m deep, the factor of safety is only ",
-             factor * (base - 0.5) / base,
-             ". Smaller cells approach that number."));
+      result.push_back(remark_on_single_row(base, h, factor));
     return result;
   }
 

@@ -375,10 +375,7 @@ namespace talus
         equilibrium().measure() == StrainMeasure::large)
       tell_of_well_balanced_load();
     const auto notes =
-      failure_depth_.notes(state_,
-                           problem_,
-                           0.5 * (strength_reduction_.lower() +
-                                  strength_reduction_.upper()));
+      failure_depth_.notes(state_, problem_, strength_reduction_.factor());
     if (!notes.empty())
       log_.say(LogLevel::result, notes[0].sentence);
     if (notes.size() > 1)

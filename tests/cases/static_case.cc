@@ -60,9 +60,7 @@ namespace talus::cases
   double
   StaticCase<dim>::factor_of_safety() const
   {
-    const StrengthReduction &search =
-      simulation_.static_stages().strength_reduction();
-    return 0.5 * (search.lower() + search.upper());
+    return simulation_.static_stages().strength_reduction().factor();
   }
 
 

@@ -63,6 +63,13 @@ namespace talus
       return upper_;
     }
 
+    /// Factor of safety: the middle of the bracket, or its only known end.
+    double
+    factor() const
+    {
+      return (lower_ + upper_) * (lower_ > 0. && upper_ > 0. ? 0.5 : 1.);
+    }
+
     /// Return whether the soil is known to fail with its actual strength.
     bool
     is_less_than_one() const

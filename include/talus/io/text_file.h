@@ -24,9 +24,9 @@ namespace talus
 
 
   /// Return a text given by the user, in UTF-8 with or without a byte order
-  /// mark, which is removed; nothing if there is no file
-  /// or the file cannot be read (a folder, a device). Throws ExcUser above 100
-  /// MB, and naming the line for a text in another encoding.
+  /// mark, which is removed; nothing if there is no file or the file cannot be
+  /// read (a folder, a device). Throws ExcUser above 100 MB, and naming the
+  /// line for a text in another encoding.
   std::optional<std::string>
   read_text_file(const std::filesystem::path &file,
                  Pipes                        pipes = Pipes::refused);
