@@ -121,6 +121,37 @@ class ObstacleFiles(Case):
                 self.assertAlmostEqual(a["normal pressure [Pa]"],
                                        b["normal pressure [Pa]"], delta=0.01)
 
+    def test_contact_area_of_steep_ground(self):
+        """A layer of 16 m in plan; end facets are longer where the ground is steep."""
+        for slope in 30, 45, 55:
+            folder = self.run_talus(f"ground-{slope}", HERE / "layer-on-ground.prm",
+                                    [f"Constants=S={slope}", "Output/Write points=false",
+                                     "Output/Write grid=false"])
+            with open(folder / "statistics.csv", newline="") as stream:
+                row = list(csv.DictReader(stream))[-1]
+            exact = 16 / math.cos(math.radians(slope))
+            for column in "contact area [m]", "footprint [m]":
+                self.assertAlmostEqual(float(row[column]) / exact, 1, delta=0.015)
+
+    def test_contact_area_of_ripples_finer_than_cells(self):
+        """Ripples of 1 m x 3 m under cells of 2 m."""
+        heights = [34 + 0.5 * math.sin(2 * math.pi * (0.5 * i + 0.25) / 3)
+                   for i in range(100)]
+        (self.folder / "ripples.asc").write_text(
+            "ncols 100\nnrows 4\nxllcorner -2.5\nyllcorner -1\ncellsize 0.5\n"
+            + 4 * (" ".join(map(str, heights)) + "\n"))
+        folder = self.run_talus(
+            "ripples", HERE / "layer-on-ground.prm",
+            ["Surfaces/ground/Expression=", "Grid/Cell size=2", "End time=0.5",
+             f"Surfaces/ground/File={self.folder}/ripples.asc",
+             "Surfaces/ground/Section=0,0; 40,0", "Bodies/soil/Filling=clipped",
+             "Output/Write points=false", "Output/Write grid=false"])
+        self.assertIn("smoothed over the smallest cells", (folder / "log.txt").read_text())
+        with open(folder / "statistics.csv", newline="") as stream:
+            row = list(csv.DictReader(stream))[-1]
+        self.assertAlmostEqual(
+            float(row["contact area [m]"]) / float(row["footprint [m]"]), 1, delta=0.05)
+
     def test_stresses_of_a_block_that_slides(self):
         """The cap, and no slip of a block that sticks."""
         file = PRM / "verification" / "block-on-plane.prm"
