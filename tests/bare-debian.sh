@@ -85,7 +85,7 @@ case $what in
     run_in "$folder.package" "apt-get update
       apt-get install -y --no-install-recommends ./talus_*.deb
       talus --version
-      talus /usr/share/talus/prm/landslide-quick.prm --set Splitting/Directions=stretched
+      talus /usr/share/talus/prm/landslide-quick.prm --set Splitting/Directions=stretched --set Splitting/Shear=ignored
       tail -n 1 output/landslide-quick/statistics.csv
       apt-get install -y --no-install-recommends \
         \$(dpkg-query -W -f='\${Recommends}' talus | tr -d ,)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Draw the sketches of doc/method.md: points and blocks, boxes and convected
-domains, facets, splits and merges, the free surface.
+domains, sheared cells, facets, splits and merges, the free surface.
 
     /usr/bin/python3 concepts.py [FOLDER]
 
@@ -126,10 +126,17 @@ def points_and_blocks(folder):
     save(figure, folder, "method-points.svg")
 
 
-def left_stretch(F):
-    """Diagonal of V with V V = F F^T."""
-    values, vectors = numpy.linalg.eigh(F @ F.T)
-    return numpy.diag(vectors @ numpy.diag(numpy.sqrt(values)) @ vectors.T)
+def lengths_of_rows(F):
+    """Lengths of the box with the second moments of the cell of edges F."""
+    return numpy.sqrt(numpy.diag(F @ F.T))
+
+
+def cell(axes, centre, A, **style):
+    """A parallelogram with the columns of A as edges."""
+    axes.add_patch(Polygon(
+        [centre + A @ corner / 2
+         for corner in ((-1, -1), (1, -1), (1, 1), (-1, 1))],
+        **{"edgecolor": "black", "linewidth": 0.7, **style}))
 
 
 def boxes_and_domains(folder):
@@ -160,17 +167,47 @@ def boxes_and_domains(folder):
                 style = dict(facecolor=ARROW if k == 5 else SOIL, alpha=0.5,
                              edgecolor="black", linewidth=0.7)
                 if row == 0:
-                    box(axes, place, left_stretch(F) * L, **style)
+                    box(axes, place, lengths_of_rows(F) * L, **style)
                 else:
-                    a = [F[:, d] * L / 2 for d in (0, 1)]
-                    axes.add_patch(Polygon(
-                        [place + s * a[0] + t * a[1]
-                         for s, t in ((-1, -1), (1, -1), (1, 1), (-1, 1))],
-                        **style))
+                    cell(axes, place, F * L, **style)
             axes.plot(*x.T, "k.", markersize=2.5)
-    rows[0, 0].text(-1.9, 1.3, "boxes (left stretch)", color=MARK)
+    rows[0, 0].text(-1.9, 1.3, "boxes (second moments)", color=MARK)
     rows[1, 0].text(-1.9, 1.3, "convected domains", color=MARK)
     save(figure, folder, "method-boxes.svg")
+
+
+def reduced_cells(folder):
+    """A sheared cell, the reduced cell of the same lattice, and its box."""
+    A = numpy.array([[1.0, 1.7], [0.0, 0.8]])
+    B = A.copy()
+    B[:, 1] -= round(A[:, 0] @ A[:, 1] / (A[:, 0] @ A[:, 0])) * A[:, 0]
+    figure, axes = plt.subplots(1, 2, figsize=(7.6, 2.5),
+                                constrained_layout=True)
+    for panel, title in zip(axes, ("(a) sheared cell and reduced cell",
+                                   "(b) box with the same second moments")):
+        bare(panel, title)
+        panel.set_xlim(-2.3, 2.3)
+        panel.set_ylim(-1.25, 1.25)
+        places = numpy.array([A @ (i, j) for i in range(-6, 7)
+                              for j in (-1, 0, 1)])
+        panel.plot(*places.T, "k.", markersize=3)
+    cell(axes[0], numpy.zeros(2), A, facecolor="none", edgecolor=ARROW,
+         linestyle="--", linewidth=1.3, zorder=4)
+    for place in (numpy.zeros(2), B[:, 0], -B[:, 0], B[:, 1], -B[:, 1]):
+        cell(axes[0], place, B, alpha=0.6,
+             facecolor=SOIL if not place.any() else "#ead9bb")
+    corner = -A.sum(axis=1) / 2
+    arrow(axes[0], corner, corner + A[:, 1])
+    axes[0].text(*(corner + 0.3 * A[:, 1] + (0.12, -0.06)), "$a_2$",
+                 color=ARROW)
+    corner = -B.sum(axis=1) / 2
+    arrow(axes[0], corner, corner + B[:, 1], color=MARK)
+    axes[0].text(*(corner + B[:, 1] + (0.1, 0.12)), "$a_2 - 2 a_1$",
+                 color=MARK)
+    cell(axes[1], numpy.zeros(2), B, facecolor=SOIL, alpha=0.6)
+    box(axes[1], (0, 0), lengths_of_rows(B), facecolor="none",
+        edgecolor=MARK, linewidth=1.3, alpha=1)
+    save(figure, folder, "method-lattice.svg")
 
 
 def facets(folder):
@@ -253,8 +290,8 @@ def split_and_merge(folder):
     """Children that tile their parent, and two points that become one."""
     figure, axes = plt.subplots(1, 4, figsize=(7.6, 2.3),
                                 constrained_layout=True)
-    for a, title in zip(axes, ("stretched point", "split: stretched axis",
-                               "split: all axes", "merged pair")):
+    for a, title in zip(axes, ("stretched point", "split: longest edge",
+                               "split: all edges", "merged pair")):
         bare(a, title)
         a.set_xlim(-0.75, 0.75)
         a.set_ylim(-0.62, 0.55)
@@ -263,7 +300,7 @@ def split_and_merge(folder):
     axes[0].plot(0, 0, "k.")
     arrow(axes[0], (-lx / 2, -0.36), (lx / 2, -0.36), color="black",
           style="<|-|>", width=0.7)
-    axes[0].text(0, -0.41, "$l_x$, $\\lambda_x > \\beta\\,\\lambda_{x0}$",
+    axes[0].text(0, -0.41, "$|a_1|$, $|F e_1| > \\beta\\,|F e_1|_0$",
                  ha="center", va="top")
     for s in (-1, 1):
         box(axes[1], (s * lx / 4, 0), (lx / 2, ly))
@@ -273,7 +310,7 @@ def split_and_merge(folder):
             axes[2].plot(s * lx / 4, t * ly / 4, "k.")
     arrow(axes[1], (0, -0.36), (lx / 4, -0.36), color="black", style="<|-|>",
           width=0.7)
-    axes[1].text(lx / 8, -0.41, "$l_x/4$", ha="center", va="top")
+    axes[1].text(lx / 8, -0.41, "$a_1/4$", ha="center", va="top")
     # Two boxes that have become thinner, and their joint box by the formula.
     centres = numpy.array([(-0.16, 0.02), (0.17, -0.02)])
     lengths = numpy.array([(0.30, 0.62), (0.34, 0.60)])
@@ -288,7 +325,7 @@ def split_and_merge(folder):
     box(axes[3], w @ centres, joint, facecolor="none", edgecolor=ARROW,
         linestyle="--", linewidth=1.3, alpha=1)
     axes[3].plot(*(w @ centres), "x", color=ARROW)
-    axes[3].text(0, -0.41, "joint box", color=ARROW, ha="center", va="top")
+    axes[3].text(0, -0.41, "joint cell", color=ARROW, ha="center", va="top")
     save(figure, folder, "method-split.svg")
 
 
@@ -363,6 +400,6 @@ def free_surface(folder):
 if __name__ == "__main__":
     folder = (sys.argv[1] if len(sys.argv) > 1
               else os.path.dirname(os.path.abspath(__file__)))
-    for draw in (points_and_blocks, boxes_and_domains, facets,
+    for draw in (points_and_blocks, boxes_and_domains, reduced_cells, facets,
                  split_and_merge, free_surface):
         draw(folder)

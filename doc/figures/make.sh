@@ -31,7 +31,7 @@ run() {
 }
 
 mkdir -p "$scratch"
-run landslide prm/landslide-quick.prm --set "Splitting/Directions=stretched" \
+run landslide prm/landslide-quick.prm --set "Splitting/Directions=stretched" --set "Splitting/Shear=ignored" \
     --set "Output/Field interval=5"
 run landslide-unsplit prm/landslide-quick.prm --set "Splitting/Enabled=false" \
     --set "Output/Field interval=5"

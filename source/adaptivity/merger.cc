@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/adaptivity/joint_deformation.h>
 #include <talus/adaptivity/merger.h>
 #include <talus/base/assertion.h>
 #include <talus/base/errors.h>
@@ -32,10 +31,13 @@ namespace talus
     : ParameterAcceptor("/Splitting")
   {
     add_parameter("Merge",
-                  enabled_,
+                  merge_,
                   "Whether points of one body that lie side by side in a cell "
-                  "are merged, where soil is compressed or at rest and needs "
-                  "fewer points.");
+                  "are merged, where soil is compressed, sheared or at rest "
+                  "and needs fewer points. 'true': only points that come from "
+                  "a split; 'all': any points. Not where shear is counted.",
+                  this->prm,
+                  Patterns::Selection("false|true|all"));
     add_parameter("Merge interval",
                   interval_,
                   "Number of steps between two searches for points to merge "
@@ -44,7 +46,7 @@ namespace talus
                   Patterns::Integer(1));
     add_parameter("Merge length",
                   length_,
-                  "Largest length of a merged point along the axis on which "
+                  "Largest length of a merged point along the edge on which "
                   "the two points lie, in cells [-]; at most 0.8 times "
                   "'Minimum length', so that soil is not merged and split in "
                   "turn.",
@@ -52,8 +54,8 @@ namespace talus
                   Patterns::Double(0., 0.8));
     add_parameter("Merge tolerance",
                   tolerance_,
-                  "Largest relative error in volume with which the boxes of "
-                  "two points count as one box [-]; 0 merges only boxes that "
+                  "Largest relative error in volume with which the cells of "
+                  "two points count as one cell [-]; 0 merges only cells that "
                   "fit to round-off.",
                   this->prm,
                   Patterns::Double(0., 0.5));
@@ -63,8 +65,15 @@ namespace talus
 
   template <int dim>
   void
-  Merger<dim>::check(const Splitter<dim> &splitter) const
+  Merger<dim>::prepare(const Splitter<dim> &splitter, const BoxShape &shape)
   {
+    enabled_ =
+      merge_ == "all" || (merge_ == "true" && splitter.is_enabled());
+    AssertThrow(!enabled_ || !shape.counts_shear,
+                ExcUser("Points are merged by their cells, but 'Splitting/"
+                        "Shear = counted' splits boxes parallel to the axes. "
+                        "Set 'Splitting/Merge = false', or 'Shear = "
+                        "ignored'."));
     const double most = splitter.min_split_length() / margin;
     AssertThrow(!enabled_ || length_ <= (1. + 1e-9) * most,
                 ExcUser(text("'Splitting/Merge length' is ",
@@ -80,21 +89,23 @@ namespace talus
 
 
 
-  /// Return whether two points along @p axis may be merged into the box
-  /// @p joint: nearly a box, no longer than `Merge length` and far from a
-  /// split, in cells of size @p cell_size, m.
+  /// Return whether two points along @p axis may be merged into the cell
+  /// @p joint: nearly a cell, no longer than `Merge length` and far from a
+  /// split, in cells of the grid of size @p cell_size, m.
   template <int dim>
   bool
-  Merger<dim>::fits(const JointBox<dim> &joint,
-                    const unsigned int   axis,
-                    const double         cell_size,
-                    const Splitter<dim> &splitter) const
+  Merger<dim>::fits(const JointCell<dim> &joint,
+                    const unsigned int    axis,
+                    const double          cell_size,
+                    const Splitter<dim>  &splitter) const
   {
-    if (joint.axis() != axis || joint.misfit() > tolerance_ + round_off ||
-        joint.length(axis) > length_ * cell_size)
+    if (joint.axis() != axis || joint.misfit() > tolerance_ + round_off)
       return false;
-    for (unsigned int d = 0; d < dim; ++d)
-      if (splitter.would_split(joint.length(d) / cell_size, margin))
+    const Tensor<2, dim> edges = transpose(joint.edges());
+    if (edges[joint.edge_of_pair()].norm() > (1. + round_off) * length_ * cell_size)
+      return false;
+    for (unsigned int k = 0; k < dim; ++k)
+      if (splitter.would_split(edges[k].norm() / cell_size, margin))
         return false;
     return true;
   }
@@ -106,7 +117,8 @@ namespace talus
   /// Each point, in the order of positions, is merged with the best fitting of
   /// the points behind until none fits. A row of boxes is thus merged from its
   /// lower end, independent of the round-off in the misfits, which depends on
-  /// the number of ranks.
+  /// the number of ranks: of two fits that differ by round-off the first is
+  /// taken.
   template <int dim>
   double
   Merger<dim>::merge_along(const unsigned int   axis,
@@ -128,15 +140,13 @@ namespace talus
     double loss = 0;
     for (std::size_t i = 0; i < members_.size();)
       {
-        std::size_t                  partner = 0;
-        std::optional<JointBox<dim>> best;
+        std::size_t                   partner = 0;
+        std::optional<JointCell<dim>> best;
         for (std::size_t j = i + 1; j < members_.size(); ++j)
           {
-            const JointBox<dim> joint(points, rule, members_[i], members_[j]);
-            if ((!best || joint.misfit() < best->misfit()) &&
-                fits(joint, axis, cell_size, splitter) &&
-                JointDeformation<dim>(points, members_[i], members_[j])
-                    .misfit() <= tolerance_ + round_off)
+            const JointCell<dim> joint(points, members_[i], members_[j]);
+            if ((!best || joint.misfit() < best->misfit() - round_off) &&
+                fits(joint, axis, cell_size, splitter))
               {
                 best    = joint;
                 partner = j;
@@ -175,7 +185,8 @@ namespace talus
         const double     size = cell.size * (cell.uniform ? 1. : 0.5);
         members_.clear();
         for (unsigned int p = segment.begin; p < segment.end; ++p)
-          members_.push_back(p);
+          if (merge_ == "all" || points.data(points.generation)[p] > 0)
+            members_.push_back(p);
         double of_segment = 0;
         for (unsigned int d = 0; d < dim; ++d)
           of_segment += merge_along(d, points, rule, size, splitter);
@@ -246,17 +257,55 @@ namespace talus
 
 
 
-  /// Replace point @p p by the union of @p p and @p q, with the box @p joint.
-  /// The splitter measures further stretch from the new deformation gradient,
-  /// and the number of splits behind the point decreases by one. Returns the
-  /// kinetic energy lost, J.
+  namespace
+  {
+    /// Set edges, reference lengths and deformation gradient of point @p p from
+    /// its @p edges, m, as columns. The reference lengths are the edges divided
+    /// by the @p stretch [-] of each, times a common factor that gives the
+    /// @p volume, m^dim.
+    template <int dim>
+    void
+    set_cell(Points<dim>          &points,
+             const unsigned int    p,
+             const Tensor<2, dim> &edges,
+             const Tensor<1, dim> &stretch,
+             const double          volume)
+    {
+      Tensor<1, dim> length;
+      double         product = 1.;
+      for (unsigned int k = 0; k < dim; ++k)
+        {
+          length[k] = transpose(edges)[k].norm() / stretch[k];
+          product *= length[k];
+        }
+      const double reference_volume = points.data(points.reference_volume)[p];
+      length *= std::pow(reference_volume * determinant(edges) /
+                           (volume * product),
+                         1. / dim);
+      for (unsigned int k = 0; k < dim; ++k)
+        {
+          points.data(points.reference_length, k)[p] = length[k];
+          for (unsigned int i = 0; i < dim; ++i)
+            points.data(points.deformation_gradient, dim * i + k)[p] =
+              edges[i][k] / length[k];
+        }
+    }
+  } // namespace
+
+
+
+  /// Replace point @p p by the union of @p p and @p q, with the cell @p joint.
+  /// The splitter measures further stretch from the new edges, and the number of
+  /// splits behind the point decreases by one. The stretch of each edge is the
+  /// mean: a hyperelastic law computes its stress from F. Returns the kinetic
+  /// energy lost, J.
   template <int dim>
   double
-  Merger<dim>::merge_pair(Points<dim>         &points,
-                          const BoxRule        rule,
-                          const unsigned int   p,
-                          const unsigned int   q,
-                          const JointBox<dim> &joint)
+  Merger<dim>::merge_pair(Points<dim>          &points,
+                          const BoxRule         rule,
+                          const unsigned int    p,
+                          const unsigned int    q,
+                          const JointCell<dim> &joint)
   {
     conservation_.add(points, p, +1.);
     conservation_.add(points, q, +1.);
@@ -266,22 +315,23 @@ namespace talus
     const double body       = points.data(points.body)[p];
     const double generation = std::max(points.data(points.generation)[p],
                                        points.data(points.generation)[q]);
+    const double V_p = volume_of_points<dim, double>(points, p),
+                 V_q = volume_of_points<dim, double>(points, q);
+    const double   w = joint.mass_share();
+    Tensor<1, dim> stretch;
+    for (unsigned int k = 0; k < dim; ++k)
+      stretch[k] =
+        w * edge_of_cell(points, k, p).norm() /
+          points.data(points.reference_length, k)[p] +
+        (1. - w) * edge_of_cell(points, k, q).norm() /
+          points.data(points.reference_length, k)[q];
 
-    const JointDeformation<dim> F(points, p, q);
-    join_columns(points, p, q, joint.mass_share(), F.volume_share());
+    join_columns(points, p, q, w, V_p / (V_p + V_q));
     points.data(points.id)[p]         = id;
     points.data(points.body)[p]       = body;
     points.data(points.generation)[p] = std::max(0., generation - 1.);
-    store_matrix(points, points.deformation_gradient, p, F.gradient());
-    // With fixed boxes the stretch stays the mean: no formula relates it to F.
-    if (rule != BoxRule::fixed)
-      initialize_stretch(points, p, p + 1, rule);
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double stretch = points.data(points.stretch, d)[p];
-        points.data(points.creation_stretch, d)[p] = stretch;
-        points.data(points.reference_length, d)[p] = joint.length(d) / stretch;
-      }
+    set_cell(points, p, joint.edges(), stretch, V_p + V_q);
+    initialize_stretch(points, p, p + 1, rule);
     conservation_.add(points, p, -1.);
     conservation_.exclude_kinetic_energy(loss);
     return loss;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace talus
 {
@@ -73,9 +74,10 @@ namespace talus
   Splitter<dim>::exceeds_threshold(const PointsView<dim, const double> &points,
                                    const unsigned int                   p,
                                    const unsigned int                   d,
-                                   const double cell_size) const
+                                   const double  cell_size,
+                                   const BoxRule rule) const
   {
-    const Number stretch = load<Number>(points.data(points.stretch, d) + p);
+    const Number stretch = stretch_to_split<Number, dim>(points, rule, d, p);
     const Number at_creation =
       load<Number>(points.data(points.creation_stretch, d) + p);
     const Number length =
@@ -94,11 +96,12 @@ namespace talus
   unsigned int
   Splitter<dim>::axes_to_split(const Points<dim> &points,
                                const unsigned int p,
-                               const double       cell_size) const
+                               const double       cell_size,
+                               const BoxRule      rule) const
   {
     unsigned int axes = 0;
     for (unsigned int d = 0; d < dim; ++d)
-      if (exceeds_threshold<double>(points.view(), p, d, cell_size))
+      if (exceeds_threshold<double>(points.view(), p, d, cell_size, rule))
         axes |= 1u << d;
     return axes;
   }
@@ -112,16 +115,19 @@ namespace talus
   Splitter<dim>::may_exceed(const Points<dim> &points,
                             const unsigned int begin,
                             const unsigned int end,
-                            const double       cell_size) const
+                            const double       cell_size,
+                            const BoxRule      rule) const
   {
     const auto columns = points.view();
     bool       found   = false;
     for_each_simd(
       begin, end, [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
-        using Number    = decltype(number);
-        auto may_exceed = exceeds_threshold<Number>(columns, p, 0, cell_size);
+        using Number = decltype(number);
+        auto may_exceed =
+          exceeds_threshold<Number>(columns, p, 0, cell_size, rule);
         for (unsigned int d = 1; d < dim; ++d)
-          may_exceed |= exceeds_threshold<Number>(columns, p, d, cell_size);
+          may_exceed |=
+            exceeds_threshold<Number>(columns, p, d, cell_size, rule);
         found |=
           any(may_exceed & (load<Number>(columns.data(columns.generation) + p) <
                             Number(maximum_generation_)));
@@ -148,7 +154,7 @@ namespace talus
     for (unsigned int d = 0; d < dim; ++d)
       if (axes & (1u << d))
         {
-          const auto edge = edge_of_box(points, rule, d, p);
+          const auto edge = edge_to_split(points, rule, d, p);
           for (unsigned int i = 0; i < dim; ++i)
             reach[i] += 0.25 * std::abs(edge[i]);
         }
@@ -201,12 +207,11 @@ namespace talus
     std::array<Tensor<1, dim>, dim> edge;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        edge[d]   = edge_of_box(points, rule, d, p);
-        length[d] = points.data(points.stretch, d)[p] *
-                    points.data(points.reference_length, d)[p];
+        edge[d]   = edge_to_split(points, rule, d, p);
+        length[d] = edge[d].norm();
       }
     cell_size         = size_at(x, grid, cell);
-    unsigned int axes = axes_to_split(points, p, cell_size);
+    unsigned int axes = axes_to_split(points, p, cell_size, rule);
     for (bool grew = (axes != 0); grew;)
       {
         grew = false;
@@ -242,7 +247,7 @@ namespace talus
     cell_size = grid.cells()[cell].size;
     const unsigned int axes =
       grid.cells()[cell].uniform
-        ? axes_to_split(points, p, cell_size)
+        ? axes_to_split(points, p, cell_size, rule)
         : axes_near_other_sizes(points, grid, p, rule, cell, cell_size);
     return (axes != 0 && directions_ == "all") ? (1u << dim) - 1 : axes;
   }
@@ -252,10 +257,11 @@ namespace talus
   template <int dim>
   bool
   Splitter<dim>::is_stretched(const Points<dim> &points,
-                              const unsigned int p) const
+                              const unsigned int p,
+                              const BoxRule      rule) const
   {
     for (unsigned int d = 0; d < dim; ++d)
-      if (points.data(points.stretch, d)[p] >
+      if (stretch_to_split<double, dim>(points.view(), rule, d, p) >
           threshold_ * points.data(points.creation_stretch, d)[p])
         return true;
     return false;
@@ -279,7 +285,7 @@ namespace talus
       const unsigned int axes =
         required_axes(points, grid, p, rule, segment.cell, cell_size);
       if (axes == 0)
-        count.at_length_limit += is_stretched(points, p);
+        count.at_length_limit += is_stretched(points, p, rule);
       else if (points.data(points.generation)[p] >= maximum_generation_)
         ++count.at_generation_limit;
       else if (!children_may_stay(points, p, axes, cell_size, grid, rule))
@@ -379,11 +385,12 @@ namespace talus
         least             = std::min(least, size);
         most              = std::max(most, size);
       }
-    if (least == most && !may_exceed(points, batch.begin, batch.end, least))
+    if (least == most && !may_exceed(points, batch.begin, batch.end, least, rule))
       return;
     for (const Segment &segment : points.segments(batch))
       {
-        if (!may_exceed(points, segment.begin, segment.end, min_size(segment)))
+        if (!may_exceed(
+              points, segment.begin, segment.end, min_size(segment), rule))
           continue;
         for (unsigned int p = segment.begin; p < segment.end; ++p)
           {
@@ -437,15 +444,12 @@ namespace talus
   namespace
   {
     /// Moves the children of a point from the centre of the parent to their
-    /// places: by a quarter of the parent's edges along each split axis. Bit i
-    /// of `child` selects the side along the i-th split axis.
+    /// places: by a quarter of edge_to_split() in each direction of the split.
+    /// Bit i of `child` selects the side along the i-th of these edges.
     ///
-    /// A box parallel to the axes is halved along the axes, a convected domain
-    /// along its edges. The initial position moves by F^-1 (x_d - x), as loads
-    /// and initial fields are functions of it. The move is exact along the
-    /// edges, which F maps from the axes of the undeformed box. Across a
-    /// sheared box the move is not exact, as the box does not know the shear
-    /// (doc/method.md, section 6).
+    /// The initial position moves by F^-1 (x_d - x), as loads and initial fields
+    /// are functions of it. The move is exact along an edge of the cell, unless
+    /// reduce_edges() has replaced the edge (doc/method.md, section 6).
     template <int dim>
     class Offset
     {
@@ -454,15 +458,16 @@ namespace talus
              const BoxRule      rule,
              const unsigned int p,
              const unsigned int axes)
-        : convected_(rule == BoxRule::convected_domain)
-        , axes_(axes)
-        , to_material_(inverse(
-            load_matrix<dim, double>(points, points.deformation_gradient, p)))
+        : axes_(axes)
       {
+        const auto to_material = inverse(
+          load_matrix<dim, double>(points, points.deformation_gradient, p));
         for (unsigned int d = 0; d < dim; ++d)
           {
-            quarter_[d]  = 0.25 * edge_of_box(points, rule, d, p);
-            material_[d] = 0.25 * points.data(points.reference_length, d)[p];
+            quarter_[d] = 0.25 * edge_to_split(points, rule, d, p);
+            for (unsigned int e = 0; e < dim; ++e)
+              for (unsigned int i = 0; i < dim; ++i)
+                material_[d][e] += to_material[e][i] * quarter_[d][i];
           }
       }
 
@@ -475,45 +480,19 @@ namespace talus
           if (axes_ & (1u << d))
             {
               const double sign = ((child >> bit++) & 1 ? 1. : -1.);
-              if (convected_)
-                move_along_edge(points, p, d, sign);
-              else
-                move_along_axis(points, p, d, sign * quarter_[d][d]);
+              for (unsigned int e = 0; e < dim; ++e)
+                {
+                  points.data(points.position, e)[p] += sign * quarter_[d][e];
+                  points.data(points.initial_position, e)[p] +=
+                    sign * material_[d][e];
+                }
             }
       }
 
     private:
-      /// Move point @p p by @p offset, m, along axis @p d; the initial position
-      /// by column @p d of F^-1 times @p offset.
-      void
-      move_along_axis(Points<dim>       &points,
-                      const unsigned int p,
-                      const unsigned int d,
-                      const double       offset) const
-      {
-        points.data(points.position, d)[p] += offset;
-        for (unsigned int e = 0; e < dim; ++e)
-          points.data(points.initial_position, e)[p] +=
-            to_material_[e][d] * offset;
-      }
-
-      /// Move point @p p along edge @p d. F^-1 maps the edge back to axis @p d.
-      void
-      move_along_edge(Points<dim>       &points,
-                      const unsigned int p,
-                      const unsigned int d,
-                      const double       sign) const
-      {
-        for (unsigned int e = 0; e < dim; ++e)
-          points.data(points.position, e)[p] += sign * quarter_[d][e];
-        points.data(points.initial_position, d)[p] += sign * material_[d];
-      }
-
-      bool                            convected_;
       unsigned int                    axes_;
-      Matrix<dim, double>             to_material_;
       std::array<Tensor<1, dim>, dim> quarter_;  ///< m
-      std::array<double, dim>         material_; ///< m
+      std::array<Tensor<1, dim>, dim> material_; ///< m
     };
   } // namespace
 
@@ -548,8 +527,14 @@ namespace talus
         if (axes & (1u << d))
           points.data(points.reference_length, d)[p] *= 0.5;
         points.data(points.creation_stretch, d)[p] =
-          points.data(points.stretch, d)[p];
+          stretch_to_split<double, dim>(std::as_const(points).view(),
+                                        rule,
+                                        d,
+                                        p);
       }
+    // Lengths of rows depend on all reference lengths.
+    if (rule == BoxRule::second_moments)
+      update_stretch(points, p, p + 1, rule);
     const double generation = ++points.data(points.generation)[p];
     statistics_.largest_generation =
       std::max(statistics_.largest_generation,

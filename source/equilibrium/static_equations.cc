@@ -457,13 +457,10 @@ namespace talus
     for (unsigned int p = 0; p < points.size(); ++p)
       for (unsigned int d = 0; d < dim; ++d)
         points.data(points.position, d)[p] += moved[dim * p + d];
-    // The gradient covers the whole step, so dt = 1.
     update_stretch(points,
-                   problem.state.workspace,
                    0,
                    points.size(),
-                   problem.transfer.box_shape().rule,
-                   /*dt=*/1.);
+                   problem.transfer.box_shape().rule);
   }
 
 

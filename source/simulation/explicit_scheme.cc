@@ -3,7 +3,7 @@
 #include <talus/base/errors.h>
 #include <talus/simulation/explicit_scheme.h>
 #include <talus/simulation/null_space_filter.h>
-#include <talus/transfer/large_deformation.h>
+#include <talus/transfer/edge_reduction.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -267,9 +267,8 @@ namespace talus
                                        state_.workspace,
                                        batch,
                                        dt);
-      renew_large_deformations(batch, rule);
-      update_stretch(
-        state_.points, state_.workspace, batch.begin, batch.end, rule, dt);
+      reduce_edges(batch);
+      update_stretch(state_.points, batch.begin, batch.end, rule);
       timer_.lap(PhaseTimer::stress_update);
       splitter_.mark(state_.points, batch, state_.grid, rule);
       timer_.lap(PhaseTimer::splitting);
@@ -278,12 +277,11 @@ namespace talus
 
 
 
-  /// Renew large deformations, except under hyperelastic laws, which need the
-  /// whole deformation.
+  /// Reduce the edges of all points but those of hyperelastic laws, which need
+  /// the whole deformation.
   template <int dim>
   void
-  ExplicitScheme<dim>::renew_large_deformations(const Batch  &batch,
-                                                const BoxRule rule)
+  ExplicitScheme<dim>::reduce_edges(const Batch &batch)
   {
     problem_.materials.for_each_material_range(
       state_.points,
@@ -292,7 +290,10 @@ namespace talus
           const unsigned int        begin,
           const unsigned int        end) {
         if (!model.is_hyperelastic())
-          talus::renew_large_deformations(state_.points, begin, end, rule);
+          talus::reduce_edges(state_.points,
+                              begin,
+                              end,
+                              transfer_.box_shape().counts_shear);
       });
   }
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/base/series.h>
-#include <talus/points/points_kernel.h>
 #include <talus/transfer/box_rule.h>
 #include <talus/transfer/convected_domain.h>
 
@@ -61,8 +59,21 @@ namespace talus
 
 
 
-    /// Stretches |F e_d| of the axes of the undeformed box. Rotations do not
-    /// change |F e_d|, so a body in pure rotation is never split.
+    /// Diagonal of V of F = V R.
+    template <int dim, typename Number>
+    TALUS_ALWAYS_INLINE std::array<Number, dim>
+                        left_stretch(const Matrix<dim, Number> &F)
+    {
+      Matrix<dim, Number> transpose;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          transpose[i][j] = F[j][i];
+      return stretch_diagonal(transpose, determinant(F));
+    }
+
+
+
+    /// Stretches |F e_d| of the edges of the cell.
     template <int dim, typename Number>
     TALUS_ALWAYS_INLINE std::array<Number, dim>
                         lengths_of_columns(const Matrix<dim, Number> &F)
@@ -80,37 +91,28 @@ namespace talus
 
 
 
-    /// Stretches along the axes, from F, for boxes parallel to the axes. The
-    /// default is V and not U: both are positive at any rotation, but U
-    /// measures along axes that have not turned with the material, and
-    /// lengthens a sheared box across the motion (doc/method.md, section 1).
+    /// Stretches l_d/L_d of the box with the second moments, along the axes, of
+    /// the cell of edges A = F diag(L): l_d is the length of row d of A.
     template <int dim, typename Number>
     TALUS_ALWAYS_INLINE std::array<Number, dim>
-    stretch_along_axes(const Matrix<dim, Number> &F, const BoxRule rule)
+                        lengths_of_rows(const Matrix<dim, Number>     &F,
+                                        const std::array<Number, dim> &L)
     {
-      if (rule == BoxRule::deformation_gradient)
+      std::array<Number, dim> stretch;
+      for (unsigned int d = 0; d < dim; ++d)
         {
-          // F_dd may pass through zero; the splitting criterion needs a
-          // positive stretch.
-          std::array<Number, dim> stretch;
-          for (unsigned int d = 0; d < dim; ++d)
-            stretch[d] = max(F[d][d], Number(0.01));
-          return stretch;
+          Number square(0.);
+          for (unsigned int k = 0; k < dim; ++k)
+            square += (F[d][k] * L[k]) * (F[d][k] * L[k]);
+          stretch[d] = sqrt(square) / L[d];
         }
-      const Number J = determinant(F);
-      if (rule == BoxRule::right_stretch)
-        return stretch_diagonal(F, J);
-      Matrix<dim, Number> transpose;
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = 0; j < dim; ++j)
-          transpose[i][j] = F[j][i];
-      return stretch_diagonal(transpose, J);
+      return stretch;
     }
 
 
 
-    /// Set the stretch of the points [begin, end) to stretch_of(F). (Rules that
-    /// share a loop share subexpressions and therefore round-off.)
+    /// Set the stretch of the points [begin, end) to stretch_of(F, L). (Rules
+    /// that share a loop share subexpressions and therefore round-off.)
     template <int dim, typename StretchOf>
     TALUS_ALWAYS_INLINE void
     set_stretch(const PointsView<dim> &points,
@@ -120,37 +122,15 @@ namespace talus
     {
       for_each_simd(
         begin, end, [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
-          using Number       = decltype(number);
+          using Number = decltype(number);
+          std::array<Number, dim> L;
+          for (unsigned int d = 0; d < dim; ++d)
+            L[d] = load<Number>(points.data(points.reference_length, d) + p);
           const auto stretch = stretch_of(
-            load_matrix<dim, Number>(points, points.deformation_gradient, p));
+            load_matrix<dim, Number>(points, points.deformation_gradient, p),
+            L);
           for (unsigned int d = 0; d < dim; ++d)
             store(points.data(points.stretch, d) + p, stretch[d]);
-        });
-    }
-
-
-
-    /// Integrate the logarithmic strain along each axis over @p dt, s. Only the
-    /// splitter reads the stretch of fixed boxes. The exponential stays
-    /// positive for any motion, whereas F_dd could vanish.
-    template <int dim>
-    void
-    update_stretch_of_fixed_boxes(const PointsView<dim>    &points,
-                                  const WorkspaceView<dim> &workspace,
-                                  const unsigned int        begin,
-                                  const unsigned int        end,
-                                  const double              dt)
-    {
-      for_each_simd(
-        begin, end, [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
-          using Number = decltype(number);
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              double      *stretch = points.data(points.stretch, d) + p;
-              const Number strain =
-                dt * load<Number>(workspace.velocity_gradient(d, d) + p);
-              store(stretch, load<Number>(stretch) * exp_by_series(strain));
-            }
         });
     }
   } // namespace
@@ -159,42 +139,45 @@ namespace talus
 
   template <int dim>
   void
-  update_stretch(Points<dim>              &points,
-                 const StepWorkspace<dim> &workspace,
-                 const unsigned int        begin,
-                 const unsigned int        end,
-                 const BoxRule             rule,
-                 const double              dt)
+  update_stretch(Points<dim>       &points,
+                 const unsigned int begin,
+                 const unsigned int end,
+                 const BoxRule      rule)
   {
     const auto columns = points.view();
-    if (rule == BoxRule::fixed)
+    switch (rule)
       {
-        update_stretch_of_fixed_boxes(
-          columns, workspace.view(begin, end), begin, end, dt);
-        return;
+        case BoxRule::fixed:
+          break;
+        case BoxRule::left_stretch:
+          set_stretch<dim>(columns,
+                           begin,
+                           end,
+                           [](const auto &F, const auto &)
+                             TALUS_INLINE_LAMBDA { return left_stretch(F); });
+          break;
+        case BoxRule::second_moments:
+          set_stretch<dim>(columns,
+                           begin,
+                           end,
+                           [](const auto &F, const auto &L) TALUS_INLINE_LAMBDA {
+                             return lengths_of_rows<dim>(F, L);
+                           });
+          break;
+        case BoxRule::convected_domain:
+          set_stretch<dim>(columns,
+                           begin,
+                           end,
+                           [](const auto &F, const auto &) TALUS_INLINE_LAMBDA {
+                             return lengths_of_columns<dim>(F);
+                           });
       }
-    if (rule == BoxRule::convected_domain)
-      set_stretch<dim>(columns,
-                       begin,
-                       end,
-                       [](const auto &F) TALUS_INLINE_LAMBDA {
-                         return lengths_of_columns<dim>(F);
-                       });
-    else
-      set_stretch<dim>(columns,
-                       begin,
-                       end,
-                       [rule](const auto &F) TALUS_INLINE_LAMBDA {
-                         return stretch_along_axes<dim>(F, rule);
-                       });
   }
 
 
 
   // The initial deformation of a body does not count as deformation since the
   // creation of its points: the splitter compares with the initial stretch.
-  // Fixed boxes begin with the stretch of U, since no motion has been
-  // integrated yet.
   template <int dim>
   void
   initialize_stretch(Points<dim>       &points,
@@ -202,30 +185,32 @@ namespace talus
                      const unsigned int end,
                      const BoxRule      rule)
   {
-    const BoxRule by_state =
-      (rule == BoxRule::fixed ? BoxRule::right_stretch : rule);
-    const auto initialize = [&](const auto &stretch_of) {
-      for (unsigned int p = begin; p < end; ++p)
-        {
-          const auto stretch = stretch_of(
-            load_matrix<dim, double>(points, points.deformation_gradient, p));
-          for (unsigned int d = 0; d < dim; ++d)
-            points.data(points.stretch, d)[p] =
-              points.data(points.creation_stretch, d)[p] = stretch[d];
-        }
-    };
-    if (rule == BoxRule::convected_domain)
-      initialize([](const auto &F) { return lengths_of_columns<dim>(F); });
-    else
-      initialize([by_state](const auto &F) {
-        return stretch_along_axes<dim, double>(F, by_state);
-      });
+    update_stretch(points, begin, end, rule);
+    const PointsView<dim, const double> columns =
+      static_cast<const Points<dim> &>(points).view();
+    for (unsigned int p = begin; p < end; ++p)
+      for (unsigned int d = 0; d < dim; ++d)
+        points.data(points.creation_stretch, d)[p] =
+          stretch_to_split<double>(columns, rule, d, p);
   }
 
 
 
-  // Not clipped: the splitter needs the true length of the material of a point,
-  // and children inherit the edges.
+  template <int dim>
+  Tensor<1, dim>
+  edge_of_cell(const Points<dim> &points,
+               const unsigned int k,
+               const unsigned int p)
+  {
+    const double   L = points.data(points.reference_length, k)[p];
+    Tensor<1, dim> edge;
+    for (unsigned int i = 0; i < dim; ++i)
+      edge[i] = points.data(points.deformation_gradient, dim * i + k)[p] * L;
+    return edge;
+  }
+
+
+
   template <int dim>
   Tensor<1, dim>
   edge_of_box(const Points<dim> &points,
@@ -233,14 +218,26 @@ namespace talus
               const unsigned int d,
               const unsigned int p)
   {
-    const double   L0 = points.data(points.reference_length, d)[p];
-    Tensor<1, dim> edge;
     if (rule == BoxRule::convected_domain)
-      for (unsigned int i = 0; i < dim; ++i)
-        edge[i] = points.data(points.deformation_gradient, dim * i + d)[p] * L0;
-    else
-      edge[d] = points.data(points.stretch, d)[p] * L0;
+      return edge_of_cell(points, d, p);
+    Tensor<1, dim> edge;
+    edge[d] = points.data(points.reference_length, d)[p];
+    if (rule != BoxRule::fixed)
+      edge[d] *= points.data(points.stretch, d)[p];
     return edge;
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  edge_to_split(const Points<dim> &points,
+                const BoxRule      rule,
+                const unsigned int d,
+                const unsigned int p)
+  {
+    return rule == BoxRule::left_stretch ? edge_of_box(points, rule, d, p) :
+                                           edge_of_cell(points, d, p);
   }
 
 
@@ -297,6 +294,10 @@ namespace talus
   template decltype(update_stretch<3>)      update_stretch<3>;
   template decltype(initialize_stretch<2>)  initialize_stretch<2>;
   template decltype(initialize_stretch<3>)  initialize_stretch<3>;
+  template decltype(edge_of_cell<2>)        edge_of_cell<2>;
+  template decltype(edge_of_cell<3>)        edge_of_cell<3>;
+  template decltype(edge_to_split<2>)       edge_to_split<2>;
+  template decltype(edge_to_split<3>)       edge_to_split<3>;
   template decltype(edge_of_box<2>)         edge_of_box<2>;
   template decltype(edge_of_box<3>)         edge_of_box<3>;
   template decltype(count_clipped_boxes<2>) count_clipped_boxes<2>;

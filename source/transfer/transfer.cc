@@ -17,18 +17,17 @@ namespace talus
   {
     add_parameter("Box rule",
                   box_rule_,
-                  "How the box of a point follows its deformation. Parallel to "
-                  "the axes: 'fixed' (uniform GIMP; the children of a split do "
-                  "not tile their parent), 'deformation gradient' (F_dd), "
-                  "'right stretch' (U_dd of F = R U, in axes that do not turn "
-                  "with the material) or 'left stretch' (V_dd of F = V R). Not "
-                  "parallel: 'convected domain' (CPDI), a parallelogram that "
-                  "turns, stretches and shears with F, for bodies that bend or "
+                  "How the box of a point follows its deformation. "
+                  "'axis-parallel': with the second moments, along the axes, "
+                  "of the cell of the point's edges (with 'Splitting/Shear = "
+                  "counted' the lengths are V_dd of F = V R times the initial "
+                  "lengths). 'fixed': the box keeps its lengths (uniform GIMP; "
+                  "the children of a split do not tile their parent). "
+                  "'convected domain': the cell itself, a parallelogram that "
+                  "turns, stretches and shears (CPDI), for bodies that bend or "
                   "turn far, at several times the cost.",
                   this->prm,
-                  Patterns::Selection(
-                    "fixed|deformation gradient|right stretch|left stretch|"
-                    "convected domain"));
+                  Patterns::Selection("axis-parallel|fixed|convected domain"));
     add_parameter(
       "Minimum half-size",
       box_shape_.min_half,
@@ -54,16 +53,46 @@ namespace talus
                   this->prm,
                   Patterns::Double(0., 1e-3));
     // Set at each parse, for this object alone.
+    const auto choose = [this](const std::string &) { choose_boxes(); };
     this->enter_my_subsection(this->prm);
-    this->prm.add_action("Box rule", [this](const std::string &rule) {
-      box_shape_.rule = rule == "fixed" ? BoxRule::fixed
-                        : rule == "deformation gradient"
-                          ? BoxRule::deformation_gradient
-                        : rule == "right stretch"    ? BoxRule::right_stretch
-                        : rule == "convected domain" ? BoxRule::convected_domain
-                                                     : BoxRule::left_stretch;
-    });
+    this->prm.add_action("Box rule", choose);
     this->leave_my_subsection(this->prm);
+    shear_.enter_my_subsection(this->prm);
+    this->prm.add_action("Shear", choose);
+    shear_.leave_my_subsection(this->prm);
+  }
+
+
+
+  template <int dim>
+  Transfer<dim>::Shear::Shear()
+    : ParameterAcceptor("/Splitting")
+  {
+    add_parameter("Shear",
+                  name,
+                  "'ignored': long edges that simple shear has made are "
+                  "replaced by shorter edges of the same lattice of points, so "
+                  "that only stretch splits points. Not for laws whose stress "
+                  "is a function of the deformation gradient (Hencky, "
+                  "neo-Hookean): there shear is counted. 'counted': shear "
+                  "counts as stretch, and boxes are halved along the axes, as "
+                  "in the paper; a shear band then splits points without end.",
+                  this->prm,
+                  Patterns::Selection("ignored|counted"));
+  }
+
+
+
+  template <int dim>
+  void
+  Transfer<dim>::choose_boxes()
+  {
+    box_shape_.counts_shear = shear_.name == "counted";
+    box_shape_.rule         = box_rule_ == "fixed" ? BoxRule::fixed
+                              : box_rule_ == "convected domain"
+                                ? BoxRule::convected_domain
+                              : box_shape_.counts_shear ? BoxRule::left_stretch
+                                                        : BoxRule::second_moments;
   }
 
 

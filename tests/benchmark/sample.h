@@ -38,7 +38,7 @@ namespace talus
       workspace.reinit(0, n_points);
       for (unsigned int p = 0; p < n_points; ++p)
         set_point(p);
-      initialize_stretch(points, 0, n_points, BoxRule::right_stretch);
+      initialize_stretch(points, 0, n_points, BoxRule::second_moments);
     }
 
     ~Sample()

@@ -226,7 +226,7 @@ TEST(Cantilever, ConvectedDomainsSplit)
 TEST(Cantilever, BoxesTear)
 {
   const Result found = run_block(cantilever,
-                                 {"Transfer/Box rule=left stretch"},
+                                 {"Transfer/Box rule=axis-parallel"},
                                  Point<2>(4., 6.5),
                                  0.065,
                                  2.8);

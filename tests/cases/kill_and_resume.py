@@ -217,7 +217,7 @@ class PointsMerged(KillAndResume):
     """Points that are split and merged in turn."""
 
     N_KILLS = 6
-    settings = SETTINGS + ["End time=3", "Splitting/Merge=true",
+    settings = SETTINGS + ["End time=3", "Splitting/Shear=ignored", "Splitting/Merge=true",
                            "Splitting/Merge interval=20"]
 
     def finish(self, name):

@@ -16,7 +16,9 @@ TEST(Landslide3d, FollowsThe2dFront)
                              "landslide-2d",
                              {"Grid/Cell size=0.8",
                                "End time=4",
-                               "Splitting/Directions=stretched"});
+                               "Splitting/Directions=stretched",
+                               "Splitting/Shear=ignored",
+                               "Splitting/Merge=true"});
   Verification gates("3-D slide between rollers, h = 0.8 m",
                      "prm/landslide-3d.prm",
                      "the 2-D slide");

@@ -66,7 +66,8 @@ namespace
                     Overrides{"Output/Write points=false",
                               "Output/Write grid=false",
                               "Output/Folder=" + folder.string(),
-                              "Splitting/Directions=stretched"} +
+                              "Splitting/Directions=stretched",
+                              "Splitting/Shear=ignored"} +
                       overrides);
     slide->run();
     QuietResult result;

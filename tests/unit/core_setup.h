@@ -6,6 +6,7 @@
 #include <talus/base/errors.h>
 #include <talus/boundaries/boundaries.h>
 #include <talus/state/state.h>
+#include <talus/transfer/box_rule.h>
 #include <talus/transfer/relocation.h>
 #include <talus/transfer/transfer.h>
 #include <talus/transfer/weights.h>
@@ -420,7 +421,8 @@ inline std::string
 splitting_along(const std::string &directions)
 {
   return in_section("Splitting",
-                    "set Minimum length = 0\nset Threshold = 1.5"
+                    "set Shear = counted\nset Minimum length = 0"
+                    "\nset Threshold = 1.5"
                     "\nset Directions = " +
                       directions);
 }

@@ -42,7 +42,7 @@ namespace
 
   /// Boxes parallel to the axes, which go in blocks, and domains that are not.
   inline const std::array<std::string, 2> box_rules = {
-    {"set Box rule = right stretch", "set Box rule = convected domain"}};
+    {"set Box rule = axis-parallel", "set Box rule = convected domain"}};
 
 
 

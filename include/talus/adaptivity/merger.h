@@ -3,7 +3,7 @@
 #define talus_adaptivity_merger_h
 
 #include <talus/adaptivity/conservation_check.h>
-#include <talus/adaptivity/joint_box.h>
+#include <talus/adaptivity/joint_cell.h>
 #include <talus/adaptivity/splitter.h>
 #include <talus/base/quantity.h>
 #include <talus/grid/grid.h>
@@ -14,21 +14,22 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <string>
 #include <vector>
 
 namespace talus
 {
   /// Merges pairs of points that lie side by side in a cell, where soil was
-  /// split and is later compressed or comes to rest.
+  /// split and is later compressed, sheared or comes to rest.
   ///
-  /// Two points of the same body and cell are merged if their boxes together
-  /// are nearly a box (JointBox::misfit()). The joint box must be no longer
-  /// than `Merge length` along the axis on which the points lie. A further
-  /// stretch by 1.25 along any axis must not cause a split. Merging keeps mass,
-  /// volume, momentum, centre of mass and the volume integral of the stress;
-  /// internal variables become means weighted by mass. The kinetic energy of
-  /// the relative velocity is lost. Children of a split that have not changed
-  /// become their parent again.
+  /// Two points of the same body and cell of the grid are merged if their cells
+  /// together are nearly a cell (JointCell::misfit()). The joint edge on which
+  /// the points lie must be no longer than `Merge length`. A further stretch of
+  /// any edge by 1.25 must not cause a split. By default only points that come
+  /// from a split are merged. Merging keeps mass, volume, momentum, centre of
+  /// mass and the volume integral of the stress; internal variables become means
+  /// weighted by mass. The kinetic energy of the relative velocity is lost.
+  /// Children of a split that have not changed become their parent again.
   ///
   /// The choice of pairs depends on the positions of the points and not on ids
   /// or storage order: any number of ranks merges the same pairs.
@@ -44,9 +45,11 @@ namespace talus
       return enabled_;
     }
 
-    /// Throw ExcUser if merged points could soon be split again.
+    /// Take the parameters over. Throw ExcUser if merged points could soon be
+    /// split again, or if @p shape counts shear. Without splitting merging is
+    /// disabled, unless points that were never split are merged.
     void
-    check(const Splitter<dim> &splitter) const;
+    prepare(const Splitter<dim> &splitter, const BoxShape &shape);
 
     /// Return whether the step that follows @p step steps begins with merging.
     bool
@@ -117,10 +120,10 @@ namespace talus
 
   private:
     bool
-    fits(const JointBox<dim> &joint,
-         unsigned int         axis,
-         double               cell_size,
-         const Splitter<dim> &splitter) const;
+    fits(const JointCell<dim> &joint,
+         unsigned int          axis,
+         double                cell_size,
+         const Splitter<dim>  &splitter) const;
     double
     merge_along(unsigned int         axis,
                 Points<dim>         &points,
@@ -128,13 +131,14 @@ namespace talus
                 double               cell_size,
                 const Splitter<dim> &splitter);
     double
-    merge_pair(Points<dim>         &points,
-               BoxRule              rule,
-               unsigned int         p,
-               unsigned int         q,
-               const JointBox<dim> &joint);
+    merge_pair(Points<dim>          &points,
+               BoxRule               rule,
+               unsigned int          p,
+               unsigned int          q,
+               const JointCell<dim> &joint);
 
-    bool         enabled_   = false;
+    std::string  merge_     = "true";
+    bool         enabled_   = true;
     unsigned int interval_  = 100;
     double       length_    = 0.45;
     double       tolerance_ = 0.15;

@@ -21,21 +21,28 @@ namespace talus
   /// Splits points that are stretched too far, so that the soil stays a
   /// continuum on the background grid.
   ///
-  /// A point is split along an axis if the stretch exceeds `Threshold` times
-  /// the stretch at creation of the point and the point is longer than `Minimum
-  /// length` cells. A point longer than a cell is split in any case. Children
-  /// inherit the state of their parent; extensive quantities are divided (see
-  /// Inheritance). The children tile the box of their parent, so the mass,
-  /// momentum and internal force of all nodes are unchanged. @cite esub
+  /// A point is split along an edge of the cell if the stretch of the edge
+  /// exceeds `Threshold` times the stretch at creation of the point and the edge
+  /// is longer than `Minimum length` cells. An edge longer than a cell is split
+  /// in any case. Children inherit the state of their parent; extensive
+  /// quantities are divided (see Inheritance). The cells of the children tile
+  /// the cell of their parent: mass, momentum and mass times position are
+  /// unchanged. Nodal sums change slightly unless the edges are parallel to the
+  /// axes.
   ///
-  /// A convected domain is measured and cut along its own edges. Its children
-  /// tile it, too; nodal sums change slightly, because shape functions are
-  /// interpolated between the corners and the children have more corners.
+  /// Where shear is counted (`Shear = counted`), the boxes parallel to the axes
+  /// are measured and halved instead. @cite esub
   template <int dim>
   class Splitter : public dealii::ParameterAcceptor
   {
   public:
     Splitter();
+
+    bool
+    is_enabled() const
+    {
+      return enabled_;
+    }
 
     /// Mark the points of the batch that must be split, and the axes to split
     /// along. Points may have moved out of the cell into which they are sorted.
@@ -144,7 +151,8 @@ namespace talus
     exceeds_threshold(const PointsView<dim, const double> &points,
                       unsigned int                         p,
                       unsigned int                         d,
-                      double                               cell_size) const;
+                      double                               cell_size,
+                      BoxRule                              rule) const;
     /// Return false if no point of [@p begin, @p end) must be split in cells of
     /// size @p cell_size, m, or larger. Cheap, as several points are tested at
     /// a time.
@@ -152,13 +160,15 @@ namespace talus
     may_exceed(const Points<dim> &points,
                unsigned int       begin,
                unsigned int       end,
-               double             cell_size) const;
+               double             cell_size,
+               BoxRule            rule) const;
     /// Return the axes to split point @p p along: bit d stands for axis d, 0
     /// for none.
     unsigned int
     axes_to_split(const Points<dim> &points,
                   unsigned int       p,
-                  double             cell_size) const;
+                  double             cell_size,
+                  BoxRule            rule) const;
     /// Return false if the split of a point along @p axes would put a child
     /// farther outside the mesh than a point may lie at a wall: half a cell.
     /// The split is then postponed; meanwhile the box is clipped and counted.
@@ -193,7 +203,7 @@ namespace talus
     /// Return whether point @p p is stretched beyond the threshold along an
     /// axis.
     bool
-    is_stretched(const Points<dim> &points, unsigned int p) const;
+    is_stretched(const Points<dim> &points, unsigned int p, BoxRule rule) const;
     void
     check_budget(const Points<dim> &points, std::size_t n_points) const;
     void

@@ -35,10 +35,7 @@ namespace talus
     const BoxShape                         &shape  = state.constants.box_shape;
     std::array<dealii::Tensor<1, dim>, dim> edges;
     for (unsigned int d = 0; d < dim; ++d)
-      if (shape.rule != BoxRule::fixed)
-        edges[d] = edge_of_box(points, shape.rule, d, p);
-      else
-        edges[d][d] = points.data(points.reference_length, d)[p];
+      edges[d] = edge_of_box(points, shape.rule, d, p);
     for (unsigned int i = 0; i < dim; ++i)
       {
         double length = 0;

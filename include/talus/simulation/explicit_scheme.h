@@ -90,7 +90,7 @@ namespace talus
     void
     grid_to_points();
     void
-    renew_large_deformations(const Batch &batch, BoxRule rule);
+    reduce_edges(const Batch &batch);
     void
     split();
 

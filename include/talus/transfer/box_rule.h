@@ -4,31 +4,22 @@
 
 #include <talus/grid/grid.h>
 #include <talus/points/points.h>
-#include <talus/points/step_workspace.h>
+#include <talus/points/points_kernel.h>
 #include <talus/transfer/box_shape.h>
 
 namespace talus
 {
-  /// Update the stretch of the points [begin, end) after a step. The stretch
-  /// follows from the deformation gradient. With the rule `fixed` the weights
-  /// ignore the stretch and only the splitter reads it: the stretch then is
-  /// exp(integral of D_dd dt), always positive.
-  ///
-  /// @param points column `stretch` is updated [-]
-  /// @param workspace velocity gradients of the step, 1/s; read by `fixed` only
-  /// @param rule box rule of the run
-  /// @param dt time step, s
+  /// Update the stretch [-] of the points [begin, end) from deformation gradient
+  /// and reference lengths. Boxes with the rule `fixed` have no stretch.
   template <int dim>
   void
-  update_stretch(Points<dim>              &points,
-                 const StepWorkspace<dim> &workspace,
-                 unsigned int              begin,
-                 unsigned int              end,
-                 BoxRule                   rule,
-                 double                    dt);
+  update_stretch(Points<dim> &points,
+                 unsigned int begin,
+                 unsigned int end,
+                 BoxRule      rule);
 
   /// Set the stretch and the stretch at creation [-] of the points [begin, end)
-  /// from their initial deformation gradient.
+  /// from their deformation gradient.
   template <int dim>
   void
   initialize_stretch(Points<dim> &points,
@@ -36,15 +27,50 @@ namespace talus
                      unsigned int end,
                      BoxRule      rule);
 
-  /// Return edge @p d of the box of point @p p, m, without clipping. A box
-  /// parallel to the axes has the edge stretch times reference length along
-  /// axis d; a convected domain has the edge F e_d times reference length.
+  /// Return edge @p k of the cell of point @p p, m: column k of the deformation
+  /// gradient times reference length k.
+  template <int dim>
+  dealii::Tensor<1, dim>
+  edge_of_cell(const Points<dim> &points, unsigned int k, unsigned int p);
+
+  /// Return edge @p d of the box of point @p p, m, without clipping: an edge of
+  /// the cell for convected domains, otherwise parallel to axis d.
   template <int dim>
   dealii::Tensor<1, dim>
   edge_of_box(const Points<dim> &points,
               BoxRule            rule,
               unsigned int       d,
               unsigned int       p);
+
+  /// Return the edge of point @p p along which splits of direction @p d halve
+  /// the point, m. Boxes that count shear are halved along the axes, all other
+  /// points along the edges of their cells.
+  template <int dim>
+  dealii::Tensor<1, dim>
+  edge_to_split(const Points<dim> &points,
+                BoxRule            rule,
+                unsigned int       d,
+                unsigned int       p);
+
+  /// Return the stretch of edge_to_split() against its reference length [-].
+  template <typename Number, int dim>
+  TALUS_ALWAYS_INLINE Number
+  stretch_to_split(const PointsView<dim, const double> &points,
+                   const BoxRule                        rule,
+                   const unsigned int                   d,
+                   const unsigned int                   p)
+  {
+    if (rule == BoxRule::left_stretch)
+      return load<Number>(points.data(points.stretch, d) + p);
+    Number square(0.);
+    for (unsigned int i = 0; i < dim; ++i)
+      {
+        const Number F = load<Number>(
+          points.data(points.deformation_gradient, dim * i + d) + p);
+        square += F * F;
+      }
+    return sqrt(square);
+  }
 
   /// Count the pairs of box and axis that are clipped for the weights, on this
   /// rank.

@@ -4,23 +4,24 @@
 
 namespace talus
 {
-  /// How the box of a point follows its deformation. The length along axis d is
-  /// stretch_d times the reference length. All boxes but the convected domain
-  /// stay parallel to the axes (GIMP); the edges of the convected domain are
-  /// F e_d, the axes of the undeformed box turned and stretched by F.
+  /// How the box of a point follows its edges a_k = L_k F e_k, with the
+  /// reference lengths L_k. The length along axis d is stretch_d times L_d. All
+  /// boxes but the convected domain stay parallel to the axes (GIMP).
   enum class BoxRule
   {
-    fixed,                ///< box keeps its reference length (uniform GIMP)
-    deformation_gradient, ///< F_dd: blind to shear, vanishes at 90 degrees
-    right_stretch,        ///< U_dd of F = R U, in the initial axes
-    left_stretch,         ///< V_dd of F = V R (default)
-    convected_domain      ///< |F e_d|, parallelogram of edges F e_d (CPDI)
+    fixed,          ///< box keeps its reference length (uniform GIMP)
+    left_stretch,   ///< V_dd of F = V R: counts shear as stretch, for @cite esub
+    second_moments, ///< second moments of the cell of edges (default)
+    convected_domain ///< |F e_d|, the cell of edges itself (CPDI)
   };
 
   /// Shape of the boxes for the weights. @cite bardenhagen2004
   struct BoxShape
   {
-    BoxRule rule = BoxRule::left_stretch;
+    BoxRule rule = BoxRule::second_moments;
+    /// Whether shear lengthens edges without end. Otherwise long edges are
+    /// replaced by shorter edges of the same lattice, see reduce_edges().
+    bool counts_shear = false;
     /// Limits of the half length of a box in sizes of its cell [-]. The lower
     /// limit keeps the step stable, the upper limit keeps the box within the
     /// touching cells.

@@ -136,8 +136,20 @@ namespace talus
                         const Quantity     &quantity,
                         const Add          &add) const;
 
+    /// Declares 'Splitting/Shear', which chooses boxes as well as splits.
+    struct Shear : dealii::ParameterAcceptor
+    {
+      Shear();
+
+      std::string name = "ignored";
+    };
+
+    void
+    choose_boxes();
+
     TransferScheme scheme_;
-    std::string    box_rule_     = "left stretch";
+    Shear          shear_;
+    std::string    box_rule_     = "axis-parallel";
     double         mass_cut_off_ = 1e-9;
     BoxShape       box_shape_;
 

@@ -10,7 +10,7 @@ namespace
   std::string
   splitting(const std::string &entries)
   {
-    return in_section("Splitting", entries);
+    return in_section("Splitting", "set Shear = counted\n" + entries);
   }
 
 

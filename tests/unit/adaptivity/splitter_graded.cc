@@ -11,7 +11,7 @@ namespace
   splitting(const std::string &directions, const std::string &threshold)
   {
     return in_section("Splitting",
-                      "set Threshold = " + threshold +
+                      "set Shear = counted\nset Threshold = " + threshold +
                         "\nset Directions = " + directions);
   }
 

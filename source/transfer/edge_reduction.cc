@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/points/points_kernel.h>
+#include <talus/transfer/edge_reduction.h>
+
+#include <array>
+#include <cmath>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // An edge is shortened along v if its component along v exceeds this
+    // multiple of |v|. Above a half, so that the next change needs a further
+    // fifth of a unit of shear: round-off never changes a basis to and fro.
+    constexpr double max_overlap = 0.6;
+
+    // Growth of an edge since the creation of the point beyond which the edge
+    // may be shortened. Flat points of a clipped surface keep their shape.
+    constexpr double min_growth = 1.15;
+
+    // An edge is shortened along other edges only if each has at least this
+    // fraction of its length. A film of soil one point thick has neighbours
+    // along the film and none across: a long edge along the film stands for
+    // soil that must be split. In 3-D a larger fraction would keep many cells
+    // of general shear long, and split them.
+    template <int dim>
+    constexpr double min_ratio = (dim == 2 ? 0.5 : 0.3);
+
+    // Growth beyond which the edge is shortened along edges of any length. The
+    // splitter has a limit and could not halve the edge.
+    constexpr double max_growth = 4.6;
+
+    // Stretch at which shear that is counted must end.
+    constexpr double max_stretch = 1000.;
+
+    /// Integer combination v = sum_j shift[j] a_j of the edges other than k.
+    template <int dim>
+    using Shift = std::array<int, dim>;
+
+
+
+    /// Call action(k, shift) for each edge k and each combination of the other
+    /// edges along which edge k may be shortened.
+    template <int dim, typename Action>
+    TALUS_ALWAYS_INLINE void
+    for_each_shift(const Action &action)
+    {
+      for (unsigned int k = 0; k < dim; ++k)
+        {
+          const unsigned int i = (k + 1) % dim, j = (k + 2) % dim;
+          Shift<dim>         shift{};
+          shift[i] = 1;
+          action(k, shift);
+          if constexpr (dim == 3)
+            {
+              for (const int of_j : {1, -1})
+                {
+                  shift[j] = of_j;
+                  action(k, shift);
+                }
+              shift[i] = 0;
+              action(k, shift);
+            }
+        }
+    }
+
+
+
+    template <int dim, typename Number>
+    TALUS_ALWAYS_INLINE Number
+    product(const std::array<Number, dim> &a, const std::array<Number, dim> &b)
+    {
+      Number sum = a[0] * b[0];
+      for (unsigned int i = 1; i < dim; ++i)
+        sum += a[i] * b[i];
+      return sum;
+    }
+
+
+
+    /// Edges of the cell of point(s) p, with the limits of their lengths.
+    template <int dim, typename Number>
+    class Edges
+    {
+    public:
+      TALUS_ALWAYS_INLINE
+      Edges(const PointsView<dim> &points,
+            const unsigned int     p,
+            const bool             counts_shear)
+      {
+        for (unsigned int k = 0; k < dim; ++k)
+          {
+            const Number L =
+              load<Number>(points.data(points.reference_length, k) + p);
+            for (unsigned int i = 0; i < dim; ++i)
+              edge_[k][i] =
+                L * load<Number>(
+                      points.data(points.deformation_gradient, dim * i + k) + p);
+            const Number initial =
+              L * load<Number>(points.data(points.creation_stretch, k) + p);
+            const Number lower =
+              counts_shear ? max_stretch * L : min_growth * initial;
+            const Number upper =
+              counts_shear ? max_stretch * L : max_growth * initial;
+            may_shorten_[k]  = lower * lower;
+            must_shorten_[k] = upper * upper;
+            square_[k]       = product<dim, Number>(edge_[k], edge_[k]);
+          }
+      }
+
+      /// Return the vector v of @p shift, m.
+      TALUS_ALWAYS_INLINE std::array<Number, dim>
+                          combination(const Shift<dim> &shift) const
+      {
+        std::array<Number, dim> v;
+        for (unsigned int i = 0; i < dim; ++i)
+          {
+            v[i] = Number(0.);
+            for (unsigned int j = 0; j < dim; ++j)
+              if (shift[j] != 0)
+                v[i] = (shift[j] > 0 ? v[i] + edge_[j][i] : v[i] - edge_[j][i]);
+          }
+        return v;
+      }
+
+      /// Return a mask: whether edge @p k must be shortened along @p shift.
+      TALUS_ALWAYS_INLINE auto
+      is_long(const unsigned int k, const Shift<dim> &shift) const
+      {
+        const auto   v        = combination(shift);
+        const Number along    = product<dim, Number>(edge_[k], v);
+        const Number limit    = max_overlap * product<dim, Number>(v, v);
+        Number       shortest = square_[k];
+        for (unsigned int j = 0; j < dim; ++j)
+          if (shift[j] != 0)
+            shortest = min(shortest, square_[j]);
+        return (along * along > limit * limit) &
+               (square_[k] > may_shorten_[k]) &
+               ((shortest > (min_ratio<dim> * min_ratio<dim>) * square_[k]) |
+                (square_[k] > must_shorten_[k]));
+      }
+
+      /// Return edge @p k after shortening along @p shift, m.
+      std::array<Number, dim>
+      shortened(const unsigned int k, const Shift<dim> &shift) const
+      {
+        const auto   v = combination(shift);
+        const Number m = std::round(product<dim, Number>(edge_[k], v) /
+                                    product<dim, Number>(v, v));
+        auto         a = edge_[k];
+        for (unsigned int i = 0; i < dim; ++i)
+          a[i] -= m * v[i];
+        return a;
+      }
+
+      void
+      replace(const unsigned int k, const std::array<Number, dim> &edge)
+      {
+        edge_[k]   = edge;
+        square_[k] = product<dim, Number>(edge, edge);
+      }
+
+      /// Return a measure of the growth of edge @p k since the creation [-].
+      Number
+      growth(const unsigned int k) const
+      {
+        return square_[k] / must_shorten_[k];
+      }
+
+      const std::array<Number, dim> &
+      edge(const unsigned int k) const
+      {
+        return edge_[k];
+      }
+
+    private:
+      std::array<std::array<Number, dim>, dim> edge_; ///< m
+      std::array<Number, dim>                  square_, may_shorten_,
+        must_shorten_; ///< m^2
+    };
+
+
+
+    /// Return whether an edge of the points in the register at @p p is long.
+    template <int dim, typename Number>
+    TALUS_ALWAYS_INLINE bool
+    any_is_long(const PointsView<dim> &points,
+                const unsigned int     p,
+                const bool             counts_shear)
+    {
+      const Edges<dim, Number> edges(points, p, counts_shear);
+      auto                     found = Number(1.) < Number(0.);
+      for_each_shift<dim>(
+        [&](const unsigned int k, const auto &shift)
+          TALUS_INLINE_LAMBDA { found |= edges.is_long(k, shift); });
+      return any(found);
+    }
+
+
+
+    /// Shorten one edge, or return false if no edge is long.
+    ///
+    /// Of two edges the edge that has grown more is shortened: shear has made
+    /// the edge, while the other connects neighbours since the creation. In a
+    /// film the choice decides whether the soil tears. Of several ways to
+    /// shorten an edge the way to the shortest is taken. Differences by
+    /// round-off decide nothing.
+    template <int dim>
+    bool
+    shorten_one(Edges<dim, double> &edges, unsigned int &edge)
+    {
+      constexpr double        clearly = 1. + 1e-9;
+      double                  growth = 0, square = 0;
+      std::array<double, dim> best;
+      for_each_shift<dim>([&](const unsigned int k, const auto &shift) {
+        if (!edges.is_long(k, shift))
+          return;
+        const auto   a       = edges.shortened(k, shift);
+        const double shorter = product<dim, double>(a, a);
+        const bool   is_best =
+          (growth > 0 && k == edge ? shorter * clearly < square
+                                   : edges.growth(k) > clearly * growth);
+        if (!is_best)
+          return;
+        edge   = k;
+        growth = edges.growth(k);
+        square = shorter;
+        best   = a;
+      });
+      if (growth > 0)
+        edges.replace(edge, best);
+      return growth > 0;
+    }
+
+
+
+    // Each change shortens an edge of a lattice, which has finitely many edges
+    // below a length, so the loop ends.
+    template <int dim>
+    void
+    reduce(const PointsView<dim> &points,
+           const unsigned int     p,
+           const bool             counts_shear)
+    {
+      Edges<dim, double>    edges(points, p, counts_shear);
+      std::array<bool, dim> has_changed{};
+      for (unsigned int k = 0; shorten_one(edges, k);)
+        has_changed[k] = true;
+      for (unsigned int k = 0; k < dim; ++k)
+        if (has_changed[k])
+          for (unsigned int i = 0; i < dim; ++i)
+            points.data(points.deformation_gradient, dim * i + k)[p] =
+              edges.edge(k)[i] / points.data(points.reference_length, k)[p];
+    }
+  } // namespace
+
+
+
+  // A point is reduced once per unit of shear strain. Most calls only test the
+  // edges of several points at a time, in a fast pass over data in the cache.
+  template <int dim>
+  void
+  reduce_edges(Points<dim>       &points,
+               const unsigned int begin,
+               const unsigned int end,
+               const bool         counts_shear)
+  {
+    const auto columns = points.view();
+    bool       found   = false;
+    for_each_simd(
+      begin, end, [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+        found |= any_is_long<dim, decltype(number)>(columns, p, counts_shear);
+      });
+    if (found)
+      for (unsigned int p = begin; p < end; ++p)
+        reduce(columns, p, counts_shear);
+  }
+
+
+
+  template decltype(reduce_edges<2>) reduce_edges<2>;
+  template decltype(reduce_edges<3>) reduce_edges<3>;
+} // namespace talus

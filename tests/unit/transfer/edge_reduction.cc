@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/transfer/edge_reduction.h>
+
+#include "core_setup.h"
+
+namespace
+{
+  using namespace talus;
+  using dealii::Point;
+  using dealii::Tensor;
+
+  template <int dim>
+  Tensor<2, dim>
+  identity_tensor()
+  {
+    return Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
+  }
+
+
+
+  /// Edges of point @p p as columns, m.
+  template <int dim>
+  Tensor<2, dim>
+  edges(const Core<dim> &core, const unsigned int p)
+  {
+    Tensor<2, dim> A;
+    for (unsigned int k = 0; k < dim; ++k)
+      for (unsigned int i = 0; i < dim; ++i)
+        A[i][k] = edge_of_cell(core.points, k, p)[i];
+    return A;
+  }
+
+
+
+  /// Add a point with these edges at creation and now, of reference length 0.5
+  /// m.
+  template <int dim>
+  unsigned int
+  add_cell(Core<dim>            &core,
+           const Tensor<2, dim> &at_creation,
+           const Tensor<2, dim> &now)
+  {
+    Point<dim>     x;
+    Tensor<1, dim> length;
+    for (unsigned int d = 0; d < dim; ++d)
+      x[d] = 1.5, length[d] = 0.5;
+    const unsigned int p = core.add(x, length);
+    core.set_deformation(p, 2. * at_creation);
+    initialize_stretch(core.points, p, p + 1, BoxRule::second_moments);
+    core.set_deformation(p, 2. * now);
+    return p;
+  }
+
+
+
+  /// Simple shear along the rows, by 1000 in 1e5 steps, without any split.
+  template <int dim>
+  void
+  expect_shear_returns(const Tensor<1, dim> &length)
+  {
+    Core<dim>  core(cube<dim>());
+    Point<dim> x;
+    for (unsigned int d = 0; d < dim; ++d)
+      x[d] = 1.5;
+    core.add(x, length);
+    core.sort();
+    const Tensor<2, dim> start   = edges(core, 0);
+    const unsigned int   n_steps = 100000;
+    Tensor<2, dim>       step    = identity_tensor<dim>();
+    // Whole units of shear of the lattice.
+    step[0][1] = 1000. * (length[0] / length[1]) / n_steps;
+    for (unsigned int i = 0; i < n_steps; ++i)
+      {
+        core.set_deformation(0, step * core.deformation(0));
+        reduce_edges(core.points, 0, 1, /*counts_shear=*/false);
+        update_stretch(core.points, 0, 1, BoxRule::second_moments);
+        ASSERT_FALSE(core.split()) << i;
+        // The row keeps its height.
+        EXPECT_NEAR(edge_of_box(core.points, BoxRule::second_moments, 1, 0)[1],
+                    length[1],
+                    1e-12);
+      }
+    EXPECT_LT((edges(core, 0) - start).norm(), 1e-9);
+    EXPECT_NEAR(determinant(core.deformation(0)), 1., 1e-12);
+  }
+
+
+
+  TEST(EdgeReduction, SimpleShearReturns)
+  {
+    expect_shear_returns<2>(Tensor<1, 2>({0.5, 0.5}));
+    expect_shear_returns<2>(Tensor<1, 2>({0.5, 0.4}));
+    expect_shear_returns<3>(Tensor<1, 3>({0.5, 0.5, 0.3}));
+  }
+
+
+
+  /// Largest component of an edge along another edge, or along the sum or
+  /// difference of two others, in lengths of the latter.
+  template <int dim>
+  double
+  largest_overlap(const Tensor<2, dim> &A)
+  {
+    const Tensor<2, dim> rows   = transpose(A);
+    double               result = 0;
+    for (unsigned int k = 0; k < dim; ++k)
+      for (const double s : {-1., 0., 1.})
+        for (const double t : {-1., 0., 1.})
+          {
+            if ((s == 0 && t == 0) || (dim == 2 && t != 0))
+              continue;
+            const Tensor<1, dim> v =
+              s * rows[(k + 1) % dim] + t * rows[(k + 2) % dim];
+            result = std::max(result, std::abs(rows[k] * v) / v.norm_square());
+          }
+    return result;
+  }
+
+
+
+  /// Edges of a cube of 0.5 m, multiplied by an integer matrix of determinant 1
+  /// and turned: reduction must find short edges of the same lattice.
+  template <int dim>
+  void
+  expect_same_lattice(const unsigned int seed)
+  {
+    Core<dim> core(cube<dim>());
+    core.random.seed(seed);
+    Tensor<2, dim> A = core.tensor(-0.1, 0.1) + 0.5 * identity_tensor<dim>();
+    for (unsigned int i = 0; i < 6; ++i)
+      {
+        Tensor<2, dim>     M = identity_tensor<dim>();
+        const unsigned int j = (i + seed) % dim;
+        M[j][(j + 1 + i / dim) % dim] += (i % 2 == 0 ? 1. : -1.);
+        if (determinant(M) == 1.)
+          A = A * M;
+      }
+    // Small at creation: all edges have grown, beyond the largest growth.
+    const unsigned int p = add_cell<dim>(core, 0.01 * A, A);
+    reduce_edges(core.points, 0, 1, false);
+    const Tensor<2, dim> reduced = edges(core, p);
+    EXPECT_NEAR(determinant(reduced), determinant(A), 1e-12);
+    EXPECT_LE(largest_overlap(reduced), 0.6);
+    const Tensor<2, dim> M = invert(A) * reduced;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        EXPECT_NEAR(M[i][j], std::round(M[i][j]), 1e-9);
+    // A second call changes nothing, not even a bit.
+    const Tensor<2, dim> before = core.deformation(p);
+    reduce_edges(core.points, 0, 1, false);
+    EXPECT_EQ(core.deformation(p), before);
+  }
+
+
+
+  TEST(EdgeReduction, KeepsTheLattice)
+  {
+    for (unsigned int seed = 0; seed < 50; ++seed)
+      {
+        expect_same_lattice<2>(seed);
+        expect_same_lattice<3>(seed);
+      }
+  }
+
+
+
+  // Lattice of sums: edge 2 is short only as a_2 - a_0 - a_1. Pairs do not find
+  // the sum, as the components along a_0 and a_1 are 0.55.
+  TEST(EdgeReduction, SumOfTwoEdges)
+  {
+    Core<3>      core(cube<3>());
+    Tensor<2, 3> A = identity_tensor<3>();
+    A[0][1]        = -0.4; // a_0 . a_1 = -0.4
+    A[0][2]        = 0.55;
+    A[1][2]        = 0.55;
+    A[2][2]        = 0.1;
+    A *= 0.5;
+    add_cell<3>(core, 0.15 * A, A);
+    const double before = edge_of_cell(core.points, 2, 0).norm();
+    reduce_edges(core.points, 0, 1, false);
+    EXPECT_LT(edge_of_cell(core.points, 2, 0).norm(), 0.9 * before);
+    EXPECT_LE(largest_overlap(edges(core, 0)), 0.6);
+  }
+
+
+
+  /// Number of edges that change.
+  unsigned int
+  n_changed(const Tensor<2, 2> &at_creation, const Tensor<2, 2> &now)
+  {
+    Core<2>            core(cube<2>());
+    const unsigned int p = add_cell<2>(core, at_creation, now);
+    reduce_edges(core.points, 0, 1, false);
+    unsigned int n = 0;
+    for (unsigned int k = 0; k < 2; ++k)
+      n += (transpose(edges(core, p))[k] - transpose(now)[k]).norm() > 1e-12;
+    return n;
+  }
+
+
+
+  TEST(EdgeReduction, HysteresisAndGrowth)
+  {
+    const auto cell = [](const double x) {
+      return Tensor<2, 2>({{1., x}, {0., 1.}});
+    };
+    EXPECT_EQ(n_changed(cell(0.), cell(0.6 - 1e-9)), 0u);
+    EXPECT_EQ(n_changed(cell(0.), cell(0.6 + 1e-9)), 1u);
+    // Flat or oblique at creation, as at a clipped surface: not grown.
+    EXPECT_EQ(n_changed(cell(0.7), cell(0.7)), 0u);
+    EXPECT_EQ(n_changed(cell(0.7), cell(0.9)), 0u);  // |a| times 1.10
+    EXPECT_EQ(n_changed(cell(0.7), cell(1.05)), 1u); // 1.19
+  }
+
+
+
+  // A film one point thick: the long edge must not be shortened along the short
+  // edge, across which there is no neighbour, unless the splitter cannot split
+  // the long edge.
+  TEST(EdgeReduction, FilmKeepsItsLongEdge)
+  {
+    const auto cell = [](const double length) {
+      return Tensor<2, 2>({{length, 0.2}, {0., 0.3}});
+    };
+    EXPECT_EQ(n_changed(cell(1.), cell(3.)), 0u);
+    EXPECT_EQ(n_changed(cell(1.), cell(4.59)), 0u);
+    EXPECT_EQ(n_changed(cell(1.), cell(4.61)), 1u);
+  }
+
+
+
+  // Where shear is counted, only edges that would take the digits of the
+  // determinant are shortened.
+  TEST(EdgeReduction, CountedShearEndsAtALargeStretch)
+  {
+    for (const double gamma : {900., 1100.})
+      {
+        Core<2>      core(cube<2>());
+        Tensor<2, 2> A = 0.5 * identity_tensor<2>();
+        A[0][1]        = 0.5 * gamma;
+        add_cell<2>(core, 0.5 * identity_tensor<2>(), A);
+        reduce_edges(core.points, 0, 1, /*counts_shear=*/true);
+        EXPECT_EQ(core.deformation(0).norm() < 2., gamma > 1000.);
+        EXPECT_NEAR(determinant(core.deformation(0)), 1., 1e-12);
+      }
+  }
+} // namespace
