@@ -74,20 +74,20 @@ namespace talus
 
 
   // Second moments instead of the union: with second moments the nodes see, to
-  // second order, the mass at its old place, and no cell needs an exact position
-  // to be merged. The scaling keeps the volume covered by the cells.
+  // second order, the mass at its old place, and no cell needs an exact
+  // position to be merged. The scaling keeps the volume covered by the cells.
   template <int dim>
   JointCell<dim>::JointCell(const Points<dim> &points,
                             const unsigned int p,
                             const unsigned int q)
     : misfit_(std::numeric_limits<double>::infinity())
   {
-    const Tensor<2, dim> A = edges_of(points, p);
-    const Tensor<2, dim> B = matched(edges_of(points, q), A);
-    const double m_p = points.data(points.mass)[p],
-                 m_q = points.data(points.mass)[q];
-    const double w   = m_p / (m_p + m_q);
-    mass_share_      = w;
+    const Tensor<2, dim> A   = edges_of(points, p);
+    const Tensor<2, dim> B   = matched(edges_of(points, q), A);
+    const double         m_p = points.data(points.mass)[p],
+                 m_q         = points.data(points.mass)[q];
+    const double w           = m_p / (m_p + m_q);
+    mass_share_              = w;
 
     offset_ = load_vector(points, points.position, q) -
               load_vector(points, points.position, p);
@@ -100,7 +100,7 @@ namespace talus
       std::sqrt(determinant(moment_)) / (determinant(A) + determinant(B));
     misfit_ = std::abs(ratio - 1.);
 
-    edge_of_pair_ = largest_component(invert(mean_) * offset_);
+    edge_of_pair_                  = largest_component(invert(mean_) * offset_);
     Tensor<1, dim> offset_in_boxes = offset_;
     for (unsigned int d = 0; d < dim; ++d)
       {

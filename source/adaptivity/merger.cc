@@ -67,8 +67,7 @@ namespace talus
   void
   Merger<dim>::prepare(const Splitter<dim> &splitter, const BoxShape &shape)
   {
-    enabled_ =
-      merge_ == "all" || (merge_ == "true" && splitter.is_enabled());
+    enabled_ = merge_ == "all" || (merge_ == "true" && splitter.is_enabled());
     AssertThrow(!enabled_ || !shape.counts_shear,
                 ExcUser("Points are merged by their cells, but 'Splitting/"
                         "Shear = counted' splits boxes parallel to the axes. "
@@ -102,7 +101,8 @@ namespace talus
     if (joint.axis() != axis || joint.misfit() > tolerance_ + round_off)
       return false;
     const Tensor<2, dim> edges = transpose(joint.edges());
-    if (edges[joint.edge_of_pair()].norm() > (1. + round_off) * length_ * cell_size)
+    if (edges[joint.edge_of_pair()].norm() >
+        (1. + round_off) * length_ * cell_size)
       return false;
     for (unsigned int k = 0; k < dim; ++k)
       if (splitter.would_split(edges[k].norm() / cell_size, margin))
@@ -279,9 +279,9 @@ namespace talus
           product *= length[k];
         }
       const double reference_volume = points.data(points.reference_volume)[p];
-      length *= std::pow(reference_volume * determinant(edges) /
-                           (volume * product),
-                         1. / dim);
+      length *=
+        std::pow(reference_volume * determinant(edges) / (volume * product),
+                 1. / dim);
       for (unsigned int k = 0; k < dim; ++k)
         {
           points.data(points.reference_length, k)[p] = length[k];
@@ -295,10 +295,11 @@ namespace talus
 
 
   /// Replace point @p p by the union of @p p and @p q, with the cell @p joint.
-  /// The splitter measures further stretch from the new edges, and the number of
-  /// splits behind the point decreases by one. The stretch of each edge is the
-  /// mean: a hyperelastic law computes its stress from F. Returns the kinetic
-  /// energy lost, J.
+  /// The splitter measures further stretch from the new edges. Two points of
+  /// one generation give a point of the previous generation; otherwise the
+  /// smaller point joins the larger. The stretch of each edge is the mean: a
+  /// hyperelastic law computes its stress from F. Returns the kinetic energy
+  /// lost, J.
   template <int dim>
   double
   Merger<dim>::merge_pair(Points<dim>          &points,
@@ -312,24 +313,24 @@ namespace talus
     const double loss = kinetic_energy_lost(points, p, q);
     const double id =
       std::min(points.data(points.id)[p], points.data(points.id)[q]);
-    const double body       = points.data(points.body)[p];
-    const double generation = std::max(points.data(points.generation)[p],
-                                       points.data(points.generation)[q]);
-    const double V_p = volume_of_points<dim, double>(points, p),
-                 V_q = volume_of_points<dim, double>(points, q);
-    const double   w = joint.mass_share();
+    const double body = points.data(points.body)[p];
+    const double g_p  = points.data(points.generation)[p],
+                 g_q  = points.data(points.generation)[q];
+    const double V_p  = volume_of_points<dim, double>(points, p),
+                 V_q  = volume_of_points<dim, double>(points, q);
+    const double   w  = joint.mass_share();
     Tensor<1, dim> stretch;
     for (unsigned int k = 0; k < dim; ++k)
-      stretch[k] =
-        w * edge_of_cell(points, k, p).norm() /
-          points.data(points.reference_length, k)[p] +
-        (1. - w) * edge_of_cell(points, k, q).norm() /
-          points.data(points.reference_length, k)[q];
+      stretch[k] = w * edge_of_cell(points, k, p).norm() /
+                     points.data(points.reference_length, k)[p] +
+                   (1. - w) * edge_of_cell(points, k, q).norm() /
+                     points.data(points.reference_length, k)[q];
 
     join_columns(points, p, q, w, V_p / (V_p + V_q));
-    points.data(points.id)[p]         = id;
-    points.data(points.body)[p]       = body;
-    points.data(points.generation)[p] = std::max(0., generation - 1.);
+    points.data(points.id)[p]   = id;
+    points.data(points.body)[p] = body;
+    points.data(points.generation)[p] =
+      (g_p == g_q ? std::max(0., g_p - 1.) : std::min(g_p, g_q));
     set_cell(points, p, joint.edges(), stretch, V_p + V_q);
     initialize_stretch(points, p, p + 1, rule);
     conservation_.add(points, p, -1.);

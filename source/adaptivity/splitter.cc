@@ -21,15 +21,15 @@ namespace talus
     add_parameter("Enabled", enabled_, "Whether points are split.");
     add_parameter("Threshold",
                   threshold_,
-                  "beta: a point is split when its stretch along an axis "
-                  "exceeds this many times its stretch when it was created "
+                  "beta: a point is split along an edge when the stretch of "
+                  "the edge exceeds this many times its stretch at creation "
                   "[-]. The paper recommends 1.4 to 1.7.",
                   this->prm,
                   Patterns::Double(1. + 1e-6));
     add_parameter("Directions",
                   directions_,
-                  "'stretched': halve only the axes that are too long; 'all': "
-                  "halve every axis (four children in 2-D, eight in 3-D), as "
+                  "'stretched': halve only the edges that are too long; 'all': "
+                  "halve every edge (four children in 2-D, eight in 3-D), as "
                   "the paper does, which needs three to five times as many "
                   "points, and far more where a layer becomes thin.",
                   this->prm,
@@ -44,9 +44,8 @@ namespace talus
                   maximum_generation_,
                   "Largest number of successive splits of a point [-]. The "
                   "default suffices for a slide that thins to a fifth of a "
-                  "cell; thinner sheets need more. Violent shear and spray "
-                  "split points as often as allowed, and light points are "
-                  "thrown far. A point at the limit is not split: its box is "
+                  "cell; thinner sheets need more. A point at the limit is not "
+                  "split: its box is "
                   "clipped, and soil that stretches on may tear. Points at the "
                   "limit are counted in statistics.csv and reported in "
                   "log.txt.",
@@ -385,7 +384,8 @@ namespace talus
         least             = std::min(least, size);
         most              = std::max(most, size);
       }
-    if (least == most && !may_exceed(points, batch.begin, batch.end, least, rule))
+    if (least == most &&
+        !may_exceed(points, batch.begin, batch.end, least, rule))
       return;
     for (const Segment &segment : points.segments(batch))
       {
@@ -447,9 +447,9 @@ namespace talus
     /// places: by a quarter of edge_to_split() in each direction of the split.
     /// Bit i of `child` selects the side along the i-th of these edges.
     ///
-    /// The initial position moves by F^-1 (x_d - x), as loads and initial fields
-    /// are functions of it. The move is exact along an edge of the cell, unless
-    /// reduce_edges() has replaced the edge (doc/method.md, section 6).
+    /// The initial position moves by F^-1 (x_d - x), as loads and initial
+    /// fields are functions of it. The move is exact along an edge of the cell,
+    /// unless reduce_edges() has replaced the edge (doc/method.md, section 6).
     template <int dim>
     class Offset
     {

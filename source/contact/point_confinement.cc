@@ -72,13 +72,9 @@ namespace talus
       if (shape.rule != BoxRule::convected_domain)
         {
           for (unsigned int d = 0; d < dim; ++d)
-            {
-              half[d] =
-                0.5 * load<Number>(points.data(points.reference_length, d) + p);
-              if (shape.rule != BoxRule::fixed)
-                half[d] =
-                  half[d] * load<Number>(points.data(points.stretch, d) + p);
-            }
+            half[d] =
+              0.5 * load<Number>(points.data(points.reference_length, d) + p) *
+              load<Number>(points.data(points.stretch, d) + p);
           return half;
         }
       double by_point[dim][simd_width] = {};

@@ -58,12 +58,8 @@ namespace talus
                     n,
                     footprints_.centre[a].begin());
         double *const half = footprints_.half[a].data();
-        if (rule == BoxRule::fixed)
-          for (unsigned int i = 0; i < n; ++i)
-            half[i] = 0.5 * length[i];
-        else if (rule != BoxRule::convected_domain)
-          for (unsigned int i = 0; i < n; ++i)
-            half[i] = 0.5 * length[i] * stretch[i];
+        for (unsigned int i = 0; i < n; ++i)
+          half[i] = 0.5 * length[i] * stretch[i];
       }
     for (const Segment &segment : points.segments(batch))
       {

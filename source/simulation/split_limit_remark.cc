@@ -29,8 +29,7 @@ namespace talus
     std::string why;
     if (unsplit.at_generation_limit > 0)
       why = counted(unsplit.at_generation_limit, "point") +
-            " reached 'Splitting/Maximum generation' (raise the limit, unless "
-            "the soil lies on a base without slip). ";
+            " reached 'Splitting/Maximum generation' (raise the limit). ";
     if (unsplit.at_mesh_limit > 0)
       why += counted(unsplit.at_mesh_limit, "point") +
              " would get children more than half a cell outside the mesh (use "

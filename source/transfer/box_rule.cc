@@ -8,89 +8,6 @@ namespace talus
 
   namespace
   {
-    /// Diagonal of the symmetric factor U of F = R U; for F^T, the diagonal of
-    /// V of F = V R. In 2-D U = (C + J I)/sqrt(tr C + 2 J), C = F^T F,
-    /// @cite hoger1984. No eigenvectors, hence no special case for equal
-    /// eigenvalues.
-    template <typename Number>
-    TALUS_ALWAYS_INLINE std::array<Number, 2>
-    stretch_diagonal(const Matrix<2, Number> &F, const Number J)
-    {
-      const Number C_00  = F[0][0] * F[0][0] + F[1][0] * F[1][0];
-      const Number C_11  = F[0][1] * F[0][1] + F[1][1] * F[1][1];
-      const Number scale = 1. / sqrt(C_00 + C_11 + 2. * J);
-      return {{(C_00 + J) * scale, (C_11 + J) * scale}};
-    }
-
-
-
-    /// Diagonal of the symmetric factor U of F = R U in 3-D. The rotation comes
-    /// from Newton's iteration R <- (R + R^-T)/2, which converges quadratically
-    /// from R = F, @cite higham1986. A closed form by eigenvalues of C loses
-    /// digits for close eigenvalues, which most of the soil has. The iteration
-    /// ends when all points of a register have converged, after about four
-    /// iterations, fewer for small stretches.
-    template <typename Number>
-    TALUS_ALWAYS_INLINE std::array<Number, 3>
-    stretch_diagonal(const Matrix<3, Number> &F, const Number /*J*/)
-    {
-      Matrix<3, Number> R = F;
-      for (unsigned int iteration = 0; iteration < 40; ++iteration)
-        {
-          const Matrix<3, Number> inverse_R = inverse(R);
-          Number                  change{};
-          for (unsigned int i = 0; i < 3; ++i)
-            for (unsigned int j = 0; j < 3; ++j)
-              {
-                const Number step = 0.5 * (inverse_R[j][i] - R[i][j]);
-                R[i][j] += step;
-                change += step * step;
-              }
-          // The next change is of the order of the square of this change.
-          if (!any(change > Number(1e-16)))
-            break;
-        }
-      std::array<Number, 3> diagonal;
-      for (unsigned int d = 0; d < 3; ++d)
-        // U = R^T F.
-        diagonal[d] = R[0][d] * F[0][d] + R[1][d] * F[1][d] + R[2][d] * F[2][d];
-      return diagonal;
-    }
-
-
-
-    /// Diagonal of V of F = V R.
-    template <int dim, typename Number>
-    TALUS_ALWAYS_INLINE std::array<Number, dim>
-                        left_stretch(const Matrix<dim, Number> &F)
-    {
-      Matrix<dim, Number> transpose;
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = 0; j < dim; ++j)
-          transpose[i][j] = F[j][i];
-      return stretch_diagonal(transpose, determinant(F));
-    }
-
-
-
-    /// Stretches |F e_d| of the edges of the cell.
-    template <int dim, typename Number>
-    TALUS_ALWAYS_INLINE std::array<Number, dim>
-                        lengths_of_columns(const Matrix<dim, Number> &F)
-    {
-      std::array<Number, dim> length;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          Number square = F[0][d] * F[0][d];
-          for (unsigned int i = 1; i < dim; ++i)
-            square += F[i][d] * F[i][d];
-          length[d] = sqrt(square);
-        }
-      return length;
-    }
-
-
-
     /// Stretches l_d/L_d of the box with the second moments, along the axes, of
     /// the cell of edges A = F diag(L): l_d is the length of row d of A.
     template <int dim, typename Number>
@@ -111,8 +28,23 @@ namespace talus
 
 
 
-    /// Set the stretch of the points [begin, end) to stretch_of(F, L). (Rules
-    /// that share a loop share subexpressions and therefore round-off.)
+    /// Diagonal of V of F = V R in 2-D: V = (B + J I)/sqrt(tr B + 2 J) with
+    /// B = F F^T, @cite hoger1984. No eigenvectors, hence no special case for
+    /// equal eigenvalues.
+    template <typename Number>
+    TALUS_ALWAYS_INLINE std::array<Number, 2>
+                        left_stretch(const Matrix<2, Number> &F)
+    {
+      const Number J     = determinant(F);
+      const Number B_00  = F[0][0] * F[0][0] + F[0][1] * F[0][1];
+      const Number B_11  = F[1][0] * F[1][0] + F[1][1] * F[1][1];
+      const Number scale = 1. / sqrt(B_00 + B_11 + 2. * J);
+      return {{(B_00 + J) * scale, (B_11 + J) * scale}};
+    }
+
+
+
+    /// Set the stretch of the points [begin, end) to stretch_of(F, L).
     template <int dim, typename StretchOf>
     TALUS_ALWAYS_INLINE void
     set_stretch(const PointsView<dim> &points,
@@ -137,6 +69,7 @@ namespace talus
 
 
 
+  // The paper, whose boxes follow V, is about plane strain.
   template <int dim>
   void
   update_stretch(Points<dim>       &points,
@@ -144,34 +77,24 @@ namespace talus
                  const unsigned int end,
                  const BoxRule      rule)
   {
-    const auto columns = points.view();
-    switch (rule)
-      {
-        case BoxRule::fixed:
-          break;
-        case BoxRule::left_stretch:
-          set_stretch<dim>(columns,
+    if (rule == BoxRule::fixed || rule == BoxRule::convected_domain)
+      return;
+    if constexpr (dim == 2)
+      if (rule == BoxRule::left_stretch)
+        {
+          set_stretch<dim>(points.view(),
                            begin,
                            end,
                            [](const auto &F, const auto &)
                              TALUS_INLINE_LAMBDA { return left_stretch(F); });
-          break;
-        case BoxRule::second_moments:
-          set_stretch<dim>(columns,
-                           begin,
-                           end,
-                           [](const auto &F, const auto &L) TALUS_INLINE_LAMBDA {
-                             return lengths_of_rows<dim>(F, L);
-                           });
-          break;
-        case BoxRule::convected_domain:
-          set_stretch<dim>(columns,
-                           begin,
-                           end,
-                           [](const auto &F, const auto &) TALUS_INLINE_LAMBDA {
-                             return lengths_of_columns<dim>(F);
-                           });
-      }
+          return;
+        }
+    set_stretch<dim>(points.view(),
+                     begin,
+                     end,
+                     [](const auto &F, const auto &L) TALUS_INLINE_LAMBDA {
+                       return lengths_of_rows<dim>(F, L);
+                     });
   }
 
 
@@ -221,9 +144,8 @@ namespace talus
     if (rule == BoxRule::convected_domain)
       return edge_of_cell(points, d, p);
     Tensor<1, dim> edge;
-    edge[d] = points.data(points.reference_length, d)[p];
-    if (rule != BoxRule::fixed)
-      edge[d] *= points.data(points.stretch, d)[p];
+    edge[d] = points.data(points.reference_length, d)[p] *
+              points.data(points.stretch, d)[p];
     return edge;
   }
 
@@ -236,8 +158,8 @@ namespace talus
                 const unsigned int d,
                 const unsigned int p)
   {
-    return rule == BoxRule::left_stretch ? edge_of_box(points, rule, d, p) :
-                                           edge_of_cell(points, d, p);
+    return rule == BoxRule::left_stretch ? edge_of_box(points, rule, d, p)
+                                         : edge_of_cell(points, d, p);
   }
 
 
@@ -256,9 +178,7 @@ namespace talus
       unsigned int n_clipped = 0;
       for (unsigned int d = 0; d < dim; ++d)
         {
-          double half = 0.5 * points.data(points.reference_length, d)[p];
-          if (shape.rule != BoxRule::fixed)
-            half *= points.data(points.stretch, d)[p];
+          const double half = 0.5 * edge_of_box(points, shape.rule, d, p)[d];
           if (half < shape.min_half * size || half > shape.max_half * size)
             ++n_clipped;
         }

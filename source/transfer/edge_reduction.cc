@@ -96,8 +96,9 @@ namespace talus
               load<Number>(points.data(points.reference_length, k) + p);
             for (unsigned int i = 0; i < dim; ++i)
               edge_[k][i] =
-                L * load<Number>(
-                      points.data(points.deformation_gradient, dim * i + k) + p);
+                L *
+                load<Number>(
+                  points.data(points.deformation_gradient, dim * i + k) + p);
             const Number initial =
               L * load<Number>(points.data(points.creation_stretch, k) + p);
             const Number lower =
@@ -138,7 +139,7 @@ namespace talus
             shortest = min(shortest, square_[j]);
         return (along * along > limit * limit) &
                (square_[k] > may_shorten_[k]) &
-               ((shortest > (min_ratio<dim> * min_ratio<dim>) * square_[k]) |
+               ((shortest > (min_ratio<dim> * min_ratio<dim>)*square_[k]) |
                 (square_[k] > must_shorten_[k]));
       }
 

@@ -88,11 +88,13 @@ namespace talus
   Transfer<dim>::choose_boxes()
   {
     box_shape_.counts_shear = shear_.name == "counted";
-    box_shape_.rule         = box_rule_ == "fixed" ? BoxRule::fixed
-                              : box_rule_ == "convected domain"
-                                ? BoxRule::convected_domain
-                              : box_shape_.counts_shear ? BoxRule::left_stretch
-                                                        : BoxRule::second_moments;
+    if (box_rule_ == "fixed")
+      box_shape_.rule = BoxRule::fixed;
+    else if (box_rule_ == "convected domain")
+      box_shape_.rule = BoxRule::convected_domain;
+    else
+      box_shape_.rule = (box_shape_.counts_shear ? BoxRule::left_stretch
+                                                 : BoxRule::second_moments);
   }
 
 

@@ -185,8 +185,7 @@ TEST(Bar, OtherBoxRules)
                      "prm/bar.prm, Transfer/Box rule, Splitting/Shear",
                      source);
   const auto   reference = run_ten_periods("counted", {});
-  const auto   ignored =
-    run_ten_periods("ignored", {"Splitting/Shear=ignored"});
+  const auto ignored = run_ten_periods("ignored", {"Splitting/Shear=ignored"});
   hold(gates, "split, shear ignored", ignored, 84);
   EXPECT_NEAR(ignored.error, reference.error, 1e-6);
   const auto fixed = run_ten_periods("fixed", {"Transfer/Box rule=fixed"});

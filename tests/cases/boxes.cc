@@ -61,10 +61,12 @@ TEST(Boxes, CoverTheSlideOnce)
 {
   Verification    gates("Boxes of the landslide at rest, h = 0.5 m",
                      "prm/landslide-quick.prm, Grid/Cell size=0.5, "
-                        "Splitting/Directions=stretched, Splitting/Shear=ignored",
+                        "Splitting/Directions=stretched, "
+                        "Splitting/Shear=ignored",
                      "the area of the soil");
   const Overrides coarse = {"Grid/Cell size=0.5",
-                            "Splitting/Directions=stretched, Splitting/Shear=ignored",
+                            "Splitting/Directions=stretched, "
+                            "Splitting/Shear=ignored",
                             "Splitting/Shear=ignored"};
   const Boxes     boxes  = boxes_at("landslide-quick.prm", 30., coarse);
   gates.at_most("sum of the boxes over the soil, - 1",

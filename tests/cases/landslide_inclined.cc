@@ -129,7 +129,7 @@ namespace
 
 
   const Overrides stretched_only = {"Splitting/Directions=stretched",
-                              "Splitting/Shear=ignored"};
+                                    "Splitting/Shear=ignored"};
 
   /// Of the aligned slide: the face of the mesh is free, and an obstacle there.
   const Overrides obstacle_on_face = {"Boundaries/Bottom=free",

@@ -150,7 +150,7 @@ TEST(LandslideOfLayers, FiveBodiesSlideAsOne)
                      "the slide of one body");
   const Overrides coarse          = {"Grid/Cell size=0.5",
                                      "Splitting/Directions=stretched",
-                              "Splitting/Shear=ignored"};
+                                     "Splitting/Shear=ignored"};
   const std::vector<double> times = {5., 30.};
   const auto one = run_to<2>("landslide-quick.prm", coarse, times);
   const auto five =

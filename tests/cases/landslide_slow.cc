@@ -110,10 +110,9 @@ TEST(LandslideFullUnsplit, Fractures)
   Verification gates("Landslide of the paper, h = 0.2 m, unsplit",
                      "prm/landslide.prm, Splitting/Enabled=false",
                      slow_source);
-  const Table  table =
-    run<2>("landslide.prm",
-           "landslide-full-unsplit",
-           {"Splitting/Enabled=false"});
+  const Table  table = run<2>("landslide.prm",
+                             "landslide-full-unsplit",
+                             {"Splitting/Enabled=false"});
   expect_momentum(gates, table);
   expect_energy(gates, table, 0.005, 0.005);
   expect_fracture(gates, table, 20);

@@ -131,6 +131,8 @@ namespace
       return std::pow(S / K, 1. / n) / m *
              (std::pow(h_s, m) - std::pow(std::max(h_s - y, 0.), m));
     };
+    // Shear by hundreds along the rows splits nothing.
+    EXPECT_EQ(layer->scheme().splitter().statistics().n_splits, 0u);
     Verification gates((n < 1. ? "Herschel-Bulkley" : "Bingham") +
                          std::string(" layer on a slope"),
                        "prm/" + file,

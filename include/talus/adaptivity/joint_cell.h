@@ -14,10 +14,10 @@ namespace talus
   /// joint cell has the second moments of mass of both cells together,
   ///   A A^T = w_p A_p A_p^T + w_q A_q A_q^T + 12 w_p w_q d d^T,
   /// with the mass fractions w and d = x_q - x_p. The moments leave a rotation
-  /// of the edges free: an edge leads from p to q, and in 3-D the rotation about
-  /// this edge follows the mean of both cells. Two halves of a cell become the
-  /// cell. A common factor gives the sum of both volumes; the factor measures
-  /// how far the union is from a cell.
+  /// of the edges free: an edge leads from p to q, and in 3-D the rotation
+  /// about this edge follows the mean of both cells. Two halves of a cell
+  /// become the cell. A common factor gives the sum of both volumes; the factor
+  /// measures how far the union is from a cell.
   template <int dim>
   class JointCell
   {

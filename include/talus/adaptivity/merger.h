@@ -27,9 +27,9 @@ namespace talus
   /// the points lie must be no longer than `Merge length`. A further stretch of
   /// any edge by 1.25 must not cause a split. By default only points that come
   /// from a split are merged. Merging keeps mass, volume, momentum, centre of
-  /// mass and the volume integral of the stress; internal variables become means
-  /// weighted by mass. The kinetic energy of the relative velocity is lost.
-  /// Children of a split that have not changed become their parent again.
+  /// mass and the volume integral of the stress; internal variables become
+  /// means weighted by mass. The kinetic energy of the relative velocity is
+  /// lost. Children of a split that have not changed become their parent again.
   ///
   /// The choice of pairs depends on the positions of the points and not on ids
   /// or storage order: any number of ranks merges the same pairs.

@@ -22,9 +22,9 @@ namespace talus
   /// continuum on the background grid.
   ///
   /// A point is split along an edge of the cell if the stretch of the edge
-  /// exceeds `Threshold` times the stretch at creation of the point and the edge
-  /// is longer than `Minimum length` cells. An edge longer than a cell is split
-  /// in any case. Children inherit the state of their parent; extensive
+  /// exceeds `Threshold` times the stretch at creation of the point and the
+  /// edge is longer than `Minimum length` cells. An edge longer than a cell is
+  /// split in any case. Children inherit the state of their parent; extensive
   /// quantities are divided (see Inheritance). The cells of the children tile
   /// the cell of their parent: mass, momentum and mass times position are
   /// unchanged. Nodal sums change slightly unless the edges are parallel to the

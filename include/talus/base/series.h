@@ -20,29 +20,6 @@ namespace talus
 
 
 
-  /// Return exp(x). The first neglected term of the series is below 1e-18 for
-  /// |x| < 0.02.
-  template <typename Number>
-  TALUS_ALWAYS_INLINE Number
-  exp_by_series(const Number &x)
-  {
-    const Number series =
-      1. +
-      x *
-        (1. +
-         x * (1. / 2. +
-              x * (1. / 6. +
-                   x * (1. / 24. + x * (1. / 120. +
-                                        x * (1. / 720. + x * (1. / 5040.)))))));
-    const auto large = is_beyond_series(x);
-    // Selected entry by entry, so that results do not depend on neighbours.
-    if (__builtin_expect(any(large), 0))
-      return select(large, exp(x), series);
-    return series;
-  }
-
-
-
   /// Return ln(1 + x) by the series of 2 artanh(x/(2+x)). The first neglected
   /// term is below 1e-20 relative for |x| < 0.02.
   template <typename Number>

@@ -19,21 +19,11 @@ namespace talus
                       const unsigned int p)
   {
     dealii::Tensor<1, dim> half;
-    if (shape.rule == BoxRule::convected_domain)
-      {
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const auto edge = edge_of_box(points, shape.rule, d, p);
-            for (unsigned int i = 0; i < dim; ++i)
-              half[i] += 0.5 * std::abs(edge[i]);
-          }
-        return half;
-      }
     for (unsigned int d = 0; d < dim; ++d)
       {
-        half[d] = 0.5 * points.data(points.reference_length, d)[p];
-        if (shape.rule != BoxRule::fixed)
-          half[d] *= points.data(points.stretch, d)[p];
+        const auto edge = edge_of_box(points, shape.rule, d, p);
+        for (unsigned int i = 0; i < dim; ++i)
+          half[i] += 0.5 * std::abs(edge[i]);
       }
     return half;
   }

@@ -9,8 +9,9 @@
 
 namespace talus
 {
-  /// Update the stretch [-] of the points [begin, end) from deformation gradient
-  /// and reference lengths. Boxes with the rule `fixed` have no stretch.
+  /// Update the stretch [-] of the points [begin, end) from deformation
+  /// gradient and reference lengths. Boxes with the rule `fixed` have no
+  /// stretch.
   template <int dim>
   void
   update_stretch(Points<dim> &points,

@@ -9,9 +9,9 @@ namespace talus
   /// boxes but the convected domain stay parallel to the axes (GIMP).
   enum class BoxRule
   {
-    fixed,          ///< box keeps its reference length (uniform GIMP)
-    left_stretch,   ///< V_dd of F = V R: counts shear as stretch, for @cite esub
-    second_moments, ///< second moments of the cell of edges (default)
+    fixed,        ///< box keeps its reference length (uniform GIMP)
+    left_stretch, ///< V_dd of F = V R: counts shear as stretch, for @cite esub
+    second_moments,  ///< second moments of the cell of edges (default)
     convected_domain ///< |F e_d|, the cell of edges itself (CPDI)
   };
 

@@ -12,8 +12,8 @@ namespace talus
   ///
   /// The cell of a point has the edges a_k = L_k F e_k, m. Equal cells side by
   /// side tile the soil as a lattice, and cells with the edges a_k - m v tile
-  /// the same lattice for any integer m, if v is another edge, or in 3-D the sum
-  /// or difference of both other edges. Volume and tiling stay unchanged.
+  /// the same lattice for any integer m, if v is another edge, or in 3-D the
+  /// sum or difference of both other edges. Volume and tiling stay unchanged.
   /// Simple shear lengthens edges without end, although the lattice keeps short
   /// ones; molecular dynamics changes the basis of a sheared periodic cell in
   /// the same way. @cite lees1972 @cite kraynik1992

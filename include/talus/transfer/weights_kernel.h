@@ -19,10 +19,9 @@ namespace talus
                        const unsigned int p,
                        const Number      &inverse_cell_size)
   {
-    Number half =
-      0.5 * load<Number>(points.data(points.reference_length, d) + p);
-    if (shape.rule != BoxRule::fixed)
-      half *= load<Number>(points.data(points.stretch, d) + p);
+    const Number half =
+      0.5 * load<Number>(points.data(points.reference_length, d) + p) *
+      load<Number>(points.data(points.stretch, d) + p);
     return clamp(half * inverse_cell_size, shape.min_half, shape.max_half);
   }
 

@@ -61,7 +61,7 @@ namespace
         }
     }
 
-    double n_points = 1; ///< per initial point, now
+    double n_points    = 1; ///< per initial point, now
     double mean_points = 0; ///< mean over the motion
 
   private:

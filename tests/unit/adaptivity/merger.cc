@@ -261,8 +261,8 @@ namespace
     EXPECT_EQ(message(""), "");
     EXPECT_EQ(message("set Minimum length = 0.5625"), "");
     EXPECT_EQ(message("set Enabled = false\nset Minimum length = 0"), "");
-    EXPECT_TRUE(contains(message("set Shear = counted"),
-                         "'Splitting/Merge = false'"));
+    EXPECT_TRUE(
+      contains(message("set Shear = counted"), "'Splitting/Merge = false'"));
     const std::string refused = message("set Minimum length = 0.55");
     for (const std::string part :
          {"'Splitting/Merge length' is 0.45", "0.55 cells", "at most 0.44"})
@@ -328,7 +328,8 @@ namespace
       for (unsigned int c = 0; c < column.n_components; ++c)
         {
           const unsigned int expected =
-            (column.first == points.creation_stretch ? n_columns : column.first) +
+            (column.first == points.creation_stretch ? n_columns
+                                                     : column.first) +
             c;
           EXPECT_NEAR(points.data(column.first, c)[0],
                       parent[expected],

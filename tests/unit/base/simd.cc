@@ -559,18 +559,6 @@ namespace
 
 
 
-TEST(Simd, ExpBySeries)
-{
-  const auto x        = strains();
-  const auto function = [](const auto &x) { return exp_by_series(x); };
-  for_results(x, function, [&](const unsigned int i, const double found) {
-    ASSERT_NEAR(found, std::exp(x[i]), 2. * epsilon * std::exp(x[i])) << x[i];
-  });
-  expect_independence(x, function);
-}
-
-
-
 TEST(Simd, Log1pBySeries)
 {
   const auto x        = strains();

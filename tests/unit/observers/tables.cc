@@ -274,10 +274,6 @@ namespace
     EXPECT_EQ(file[2], "0.5,3.5,1.25,1.75,0.0625,3");
     EXPECT_EQ(file[3], "0.5,4.5,0,0.5,0.25,-1");
 
-    // Boxes that do not follow the deformation keep their reference length.
-    s.constants.box_shape.rule = BoxRule::fixed;
-    EXPECT_EQ(find_profile(s, on_bottom(s)).at(2).highest, 0.375);
-
     // After a quarter of a turn what was along x, 0.5 m, is along y.
     s.constants.box_shape.rule = BoxRule::convected_domain;
     const Matrix<2, double> quarter_turn{{{{{0., -1.}}, {{1., 0.}}}}};

@@ -9,13 +9,13 @@ TEST(SplitLimitRemark, PointsThatCannotBeSplitAreToldOnce)
 {
   using namespace talus;
   using dealii::Point;
-  Core<2>    core(cube<2>() +
+  Core<2> core(cube<2>() +
                in_section("Splitting",
                           "set Shear = counted\n"
-                             "set Minimum length = 0\nset Threshold = 1.5\n"
-                             "set Maximum generation = 2"));
+                          "set Minimum length = 0\nset Threshold = 1.5\n"
+                          "set Maximum generation = 2"));
   core.constants.box_shape = core.transfer.box_shape();
-  const auto add = [&](const double x, const double generation) {
+  const auto add           = [&](const double x, const double generation) {
     const unsigned int p = core.add(Point<2>(x, 1.5), Point<2>(0.6, 0.6));
     core.points.data(core.points.stretch)[p]    = 1.6;
     core.points.data(core.points.generation)[p] = generation;

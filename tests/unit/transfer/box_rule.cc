@@ -52,33 +52,31 @@ namespace
   TEST(BoxRule, PolarDecomposition)
   {
     expect_polar_decomposition<2>();
-    expect_polar_decomposition<3>();
   }
 
 
 
-  // Second moments of the cell: a turned square keeps its lengths, a sheared row
-  // keeps its height, and unequal edges turn with the material.
+  // Second moments of the cell: a turned square keeps its lengths, a sheared
+  // row keeps its height, and unequal edges turn with the material.
   TEST(BoxRule, SecondMoments)
   {
     Core<2>      core(cube<2>());
     auto        &points = core.points;
-    const double c      = std::cos(0.4), s = std::sin(0.4);
-    const auto   lengths = [&](const double        L_x,
-                             const double        L_y,
-                             const Tensor<2, 2> &F) {
-      const unsigned int p =
-        core.add({1.5, 1.5}, dealii::Point<2>(L_x, L_y));
-      core.set_deformation(p, F);
-      update_stretch(points, p, p + 1, BoxRule::second_moments);
-      return Tensor<1, 2>(
-        {edge_of_box(points, BoxRule::second_moments, 0, p)[0],
-         edge_of_box(points, BoxRule::second_moments, 1, p)[1]});
-    };
-    const auto expect = [](const Tensor<1, 2> &l, const double x, const double y) {
-      EXPECT_NEAR(l[0], x, 1e-15);
-      EXPECT_NEAR(l[1], y, 1e-15);
-    };
+    const double c = std::cos(0.4), s = std::sin(0.4);
+    const auto   lengths =
+      [&](const double L_x, const double L_y, const Tensor<2, 2> &F) {
+        const unsigned int p = core.add({1.5, 1.5}, dealii::Point<2>(L_x, L_y));
+        core.set_deformation(p, F);
+        update_stretch(points, p, p + 1, BoxRule::second_moments);
+        return Tensor<1, 2>(
+          {edge_of_box(points, BoxRule::second_moments, 0, p)[0],
+           edge_of_box(points, BoxRule::second_moments, 1, p)[1]});
+      };
+    const auto expect =
+      [](const Tensor<1, 2> &l, const double x, const double y) {
+        EXPECT_NEAR(l[0], x, 1e-15);
+        EXPECT_NEAR(l[1], y, 1e-15);
+      };
     expect(lengths(0.4, 0.4, Tensor<2, 2>({{c, -s}, {s, c}})), 0.4, 0.4);
     expect(lengths(0.4, 0.2, Tensor<2, 2>({{0., -1.}, {1., 0.}})), 0.2, 0.4);
     expect(lengths(0.3, 0.4, Tensor<2, 2>({{1., 1.}, {0., 1.}})), 0.5, 0.4);
@@ -89,22 +87,16 @@ namespace
   TEST(BoxRule, HalfLengthsAreClipped)
   {
     Core<2>    core(cube<2>());
-    const auto half = [&](const BoxRule rule,
-                          const double  length,
-                          const double  stretch) {
-      BoxShape shape;
-      shape.rule           = rule;
+    const auto half = [&](const double length, const double stretch) {
+      const BoxShape     shape;
       const unsigned int p = core.add({1.5, 1.5}, dealii::Point<2>(9., length));
       core.points.data(core.points.stretch, 1)[p] = stretch;
       // Cells of 2 m.
       return half_length_in_cells<2>(core.points, shape, 1, p, 0.5);
     };
-    EXPECT_EQ(half(BoxRule::second_moments, 1., 1.5), 0.375);
-    EXPECT_EQ(half(BoxRule::second_moments, 1., 0.3), 0.1);
-    EXPECT_EQ(half(BoxRule::second_moments, 1., 2.1), 0.5);
-    EXPECT_EQ(half(BoxRule::fixed, 1., 2.1), 0.25);
-    EXPECT_EQ(half(BoxRule::fixed, 2.1, 0.5), 0.5);
-    EXPECT_EQ(half(BoxRule::fixed, 0.3, 2.), 0.1);
+    EXPECT_EQ(half(1., 1.5), 0.375);
+    EXPECT_EQ(half(1., 0.3), 0.1);
+    EXPECT_EQ(half(1., 2.1), 0.5);
   }
 
 
@@ -131,8 +123,5 @@ namespace
     core.sort();
     BoxShape shape;
     EXPECT_EQ(count_clipped_boxes(core.points, core.grid, shape), 5u);
-    // Fixed boxes do not use the stretch.
-    shape.rule = BoxRule::fixed;
-    EXPECT_EQ(count_clipped_boxes(core.points, core.grid, shape), 2u);
   }
 } // namespace

@@ -81,7 +81,7 @@ namespace
           periodic.grid() + periodic.conditions() +
           in_section("Splitting",
                      "set Shear = counted\n"
-                     "set Minimum length = 0\nset Directions = all"));
+                               "set Minimum length = 0\nset Directions = all"));
         const Point<2> x(-2.999, -1.4);
         if (core.grid.find_cell(x) < core.grid.n_owned_cells())
           {

@@ -111,7 +111,7 @@ def fracture(run):
 # Columns that count points which a limit keeps from being split: the limit, and what to do.
 SPLIT_LIMITS = {
     "points at generation limit": (
-        "'Splitting/Maximum generation' forbids it. Raise that number, unless the soil lies on a base without slip."),
+        "'Splitting/Maximum generation' forbids it. Raise that number."),
     "points at mesh limit": (
         "their children would lie more than half a cell outside the mesh. Enlarge the mesh by "
         "'Grid/Lower corner' and 'Grid/Upper corner', or take smaller cells."),

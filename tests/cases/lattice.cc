@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Points as cells of a lattice: shear does not split points, stretch does,
+// whatever the direction. Numbers of points, holes and fronts.
+
+#include "case.h"
+#include "verification.h"
+
+#include <talus/base/errors.h>
+#include <talus/observers/boxes.h>
+#include <talus/points/points_kernel.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace talus;
+using namespace talus::cases;
+
+namespace
+{
+  double
+  largest(const std::vector<double> &values)
+  {
+    return *std::max_element(values.begin(), values.end());
+  }
+
+
+
+  /// One body without holes in every row.
+  void
+  expect_whole(Verification &gates, const Table &table, const double max_empty)
+  {
+    gates.at_most("empty interior cells",
+                  largest(table["empty interior cells"]),
+                  max_empty);
+    gates.at_most("empty columns", largest(table["empty columns"]), 0.);
+    gates.at_most("connected bodies",
+                  largest(table["connected bodies"]),
+                  1.,
+                  "1");
+  }
+
+
+
+  double
+  largest_remainder(const Table &table)
+  {
+    double largest = 0;
+    for (const double remainder : table["energy remainder [J]"])
+      largest = std::max(largest, std::abs(remainder));
+    return largest;
+  }
+} // namespace
+
+
+
+// The disc is stretched 6 times, along the diagonal, along x and along y. The
+// bound of 3500 points is a third of the number when shear is counted.
+TEST(ThrownDisc, TheDirectionDoesNotMatter)
+{
+  double least = 1e9, most = 0;
+  for (const std::string velocity : {"y; x", "x; -y", "-x; y"})
+    {
+      Verification gates("Disc thrown apart, velocity " + velocity,
+                         "tests/cases/thrown-disc.prm",
+                         "one body without holes; turned runs");
+      const Table  table = run<2>("thrown-disc.prm",
+                                 "thrown-disc-" + velocity.substr(0, 2),
+                                 {"Bodies/soil/Initial velocity=" + velocity});
+      expect_whole(gates, table, 0.);
+      const double n_points = table["points"].back();
+      gates.at_most("points", n_points, 3500.);
+      least = std::min(least, n_points);
+      most  = std::max(most, n_points);
+    }
+  Verification gates("Disc thrown apart, three directions",
+                     "tests/cases/thrown-disc.prm",
+                     "turned runs");
+  gates.at_most("points, largest number / smallest - 1",
+                most / least - 1.,
+                0.1);
+}
+
+
+
+namespace
+{
+  /// Area of the boxes as drawn over the area of the soil.
+  double
+  cover(const State<2> &state)
+  {
+    const Points<2> &points = state.points;
+    double           boxes = 0, soil = 0;
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        const auto lengths = box_lengths(state, p);
+        boxes += lengths[0] * lengths[1];
+        soil += volume_of_points<2, double>(points, p);
+      }
+    return boxes / soil;
+  }
+
+
+
+  struct WeakRow
+  {
+    double n_points, median_height; // -, m
+  };
+
+  /// Points of the weak layer, 1 m high, at |x| < 120 m.
+  WeakRow
+  weak_row(const Points<2> &points)
+  {
+    std::vector<double> heights;
+    double              n_points = 0;
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        const double body = points.data(points.body)[p];
+        if (body < 2. || body > 4.) // up, zone, down
+          continue;
+        ++n_points;
+        if (std::abs(points.data(points.position, 0)[p]) < 120. &&
+            points.data(points.position, 1)[p] < 1.)
+          heights.push_back(points.data(points.stretch, 1)[p] *
+                            points.data(points.reference_length, 1)[p]);
+      }
+    std::nth_element(heights.begin(),
+                     heights.begin() + heights.size() / 2,
+                     heights.end());
+    return {n_points, heights[heights.size() / 2]};
+  }
+} // namespace
+
+
+
+// A weak row of one cell is sheared by tens of metres under a slab. If shear is
+// counted, 1000 points of the row become 29 000 at 40 s.
+TEST(SlabFailureLattice, TheWeakRowKeepsItsPoints)
+{
+  const std::filesystem::path folder =
+    std::filesystem::path(TALUS_RESULTS_DIR) / "slab-failure-lattice";
+  Verification gates("Slab failure, cells of a lattice",
+                     "prm/slab-failure.prm",
+                     "the row keeps 0.5 m per point; one body without holes");
+  Case<2>      slab("slab-failure.prm",
+               {"Output/Folder=" + folder.string(),
+                     "Output/Write points=false",
+                     "Output/Field interval=1e9"});
+  double       most_cover = 0;
+  for (const double time : {14., 24., 40., 60. - 1e-9})
+    {
+      while (slab->state().time < time)
+        slab->advance();
+      most_cover = std::max(most_cover, cover(slab->state()));
+      if (time == 24. || time == 40.)
+        gates.near(text("median height of the boxes of the weak row at ",
+                        time,
+                        " s [m]"),
+                   weak_row(slab->points()).median_height,
+                   0.5,
+                   0.02);
+    }
+  gates.at_most("sum of the boxes over the soil", most_cover, 1.05);
+  gates.at_most("points of the weak layer at 60 s",
+                weak_row(slab->points()).n_points,
+                1500.);
+  gates.at_most("points at 60 s", slab->points().size(), 15000.);
+}
+
+
+
+TEST(SlabFailureLattice, OneBodyWithoutHoles)
+{
+  Verification gates("Slab failure, cells of a lattice, statistics",
+                     "prm/slab-failure.prm",
+                     "one body without holes; balance of energy");
+  const Table  table = run<2>("slab-failure.prm", "slab-failure-statistics");
+  expect_whole(gates, table, 1.);
+  gates.at_most("energy remainder / gravity work",
+                largest_remainder(table) / table["gravity work [J]"].back(),
+                0.006);
+}
+
+
+
+// A slope with terrain, water and a berm; a film of soil one point thick stays
+// behind the crown, which tears if edges are shortened across the film or if
+// merging turns the edges.
+TEST(SlopeLattice, TheFilmDoesNotTear)
+{
+  Verification gates("Submarine slope, cells of a lattice",
+                     "prm/slope.prm, End time = 60",
+                     "one body, no empty column");
+  const Table  table = run<2>("slope.prm", "slope-lattice", {"End time=60"});
+  gates.at_most("empty columns", largest(table["empty columns"]), 0.);
+  gates.at_most("connected bodies",
+                largest(table["connected bodies"]),
+                1.,
+                "1");
+  gates.at_most("points at generation limit",
+                largest(table["points at generation limit"]),
+                40.);
+}
+
+
+
+// Fronts of the paper's slide, from runs with four-way splits on fine cells.
+TEST(LandslideLattice, FrontAndPoints)
+{
+  Verification gates("Landslide, h = 0.4 m, lattice",
+                     "prm/landslide-quick.prm, Directions = stretched, "
+                     "Shear = ignored, Merge = true",
+                     "reference front of the slide");
+  const Table  merged = run<2>("landslide-quick.prm",
+                              "landslide-lattice-merged",
+                              {"Splitting/Directions=stretched",
+                                "Splitting/Shear=ignored",
+                                "Splitting/Merge=true",
+                                "End time=28"});
+  const std::vector<std::pair<double, double>> fronts = {{5., 72.256},
+                                                         {10., 104.05},
+                                                         {15., 135.91},
+                                                         {28., 176.86}};
+  for (const auto &[time, front] : fronts)
+    {
+      unsigned int row = 0;
+      while (row + 1 < merged.n_rows() && merged["time [s]"][row] < time - 1e-6)
+        ++row;
+      gates.near(text("front at ", time, " s [m]"),
+                 merged["front x [m]"][row],
+                 front,
+                 time <= 15. ? 0.003 : 0.011);
+    }
+  gates.falls_short("points with merging",
+                    merged["points"].back(),
+                    8000.,
+                    {9000.,
+                     "a film that is thinner than half of the length of its "
+                     "points is split before its edges are reduced"});
+}
