@@ -2,10 +2,7 @@
 #include <talus/adaptivity/joint_cell.h>
 #include <talus/transfer/box_rule.h>
 
-#include <deal.II/base/symmetric_tensor.h>
-
 #include <cmath>
-#include <limits>
 
 namespace talus
 {
@@ -19,11 +16,8 @@ namespace talus
     {
       Tensor<2, dim> A;
       for (unsigned int k = 0; k < dim; ++k)
-        {
-          const Tensor<1, dim> edge = edge_of_cell(points, k, p);
-          for (unsigned int i = 0; i < dim; ++i)
-            A[i][k] = edge[i];
-        }
+        for (unsigned int i = 0; i < dim; ++i)
+          A[i][k] = edge_of_cell(points, k, p)[i];
       return A;
     }
 
@@ -40,21 +34,6 @@ namespace talus
         for (unsigned int j = 0; j < dim; ++j)
           M[i][j] = std::round(M[i][j]);
       return std::abs(determinant(M) - 1.) < 0.5 ? B * M : B;
-    }
-
-
-
-    /// Return the square root of a symmetric positive definite tensor.
-    template <int dim>
-    Tensor<2, dim>
-    root(const Tensor<2, dim> &square)
-    {
-      Tensor<2, dim> V;
-      for (const auto &[value, direction] :
-           eigenvectors(symmetrize(square),
-                        SymmetricTensorEigenvectorMethod::jacobi))
-        V += std::sqrt(value) * outer_product(direction, direction);
-      return V;
     }
 
 
@@ -80,58 +59,54 @@ namespace talus
   JointCell<dim>::JointCell(const Points<dim> &points,
                             const unsigned int p,
                             const unsigned int q)
-    : misfit_(std::numeric_limits<double>::infinity())
+    : edges_(edges_of(points, p))
+    , offset_(load_vector(points, points.position, q) -
+              load_vector(points, points.position, p))
   {
-    const Tensor<2, dim> A   = edges_of(points, p);
-    const Tensor<2, dim> B   = matched(edges_of(points, q), A);
-    const double         m_p = points.data(points.mass)[p],
-                 m_q         = points.data(points.mass)[q];
-    const double w           = m_p / (m_p + m_q);
-    mass_share_              = w;
-
-    offset_ = load_vector(points, points.position, q) -
-              load_vector(points, points.position, p);
-    mean_ = w * A + (1. - w) * B;
-    if (!(determinant(mean_) > 0))
-      return;
+    const Tensor<2, dim> A = edges_, B = matched(edges_of(points, q), A);
+    const double *const  m = points.data(points.mass);
+    const double         w = mass_share_ = m[p] / (m[p] + m[q]);
     moment_ = w * A * transpose(A) + (1. - w) * B * transpose(B) +
               12. * w * (1. - w) * outer_product(offset_, offset_);
     const double ratio =
       std::sqrt(determinant(moment_)) / (determinant(A) + determinant(B));
     misfit_ = std::abs(ratio - 1.);
 
-    edge_of_pair_                  = largest_component(invert(mean_) * offset_);
-    Tensor<1, dim> offset_in_boxes = offset_;
+    const Tensor<1, dim> offset_in_edges = invert(A) * offset_;
+    edge_of_pair_                        = largest_component(offset_in_edges);
+    Tensor<1, dim> offset_in_boxes       = offset_;
     for (unsigned int d = 0; d < dim; ++d)
-      {
-        mean_[d][edge_of_pair_] *= 2.;
-        offset_in_boxes[d] /= std::sqrt(moment_[d][d]);
-      }
+      offset_in_boxes[d] /= std::sqrt(moment_[d][d]);
+    if (offset_in_edges[edge_of_pair_] < 0)
+      offset_ *= -1.;
     axis_ = largest_component(offset_in_boxes);
     moment_ *= std::pow(ratio, -2. / dim);
   }
 
 
 
-  // The edges are V R, with V the root of the moments and a rotation R. First R
-  // is the rotation of the mean edges; the smallest further rotation, from the
-  // unit vector a to u, then turns the edge of the pair into the offset. In a
-  // film one point thick the edge along the film must stay along the film, or
-  // later splits would leave gaps.
+  // A A^T = M holds if the edges are orthonormal with the metric M^-1. The
+  // first edge has the direction from p to q, the other edges follow from the
+  // edges of p by Gram and Schmidt. In a film one point thick the edge along
+  // the film must stay along the film, or later splits would leave gaps.
   template <int dim>
   Tensor<2, dim>
   JointCell<dim>::edges() const
   {
-    const Tensor<2, dim> V = root(moment_);
-    const Tensor<2, dim> R = project_onto_orthogonal_tensors(mean_);
-    const Tensor<1, dim> a = transpose(R)[edge_of_pair_];
-    Tensor<1, dim>       u = invert(V) * offset_;
-    u /= (a * u < 0 ? -1. : 1.) * u.norm();
-    Tensor<2, dim> turn =
-      2. * outer_product(u, a) - outer_product(a + u, a + u) / (1. + a * u);
-    for (unsigned int d = 0; d < dim; ++d)
-      turn[d][d] += 1.;
-    return V * turn * R;
+    const Tensor<2, dim> metric = invert(moment_);
+    Tensor<2, dim>       edge   = transpose(edges_);
+    edge[edge_of_pair_]         = offset_;
+    for (unsigned int n = 0; n < dim; ++n)
+      {
+        Tensor<1, dim> a = edge[(edge_of_pair_ + n) % dim];
+        for (unsigned int m = 0; m < n; ++m)
+          {
+            const Tensor<1, dim> b = edge[(edge_of_pair_ + m) % dim];
+            a -= (a * (metric * b)) * b;
+          }
+        edge[(edge_of_pair_ + n) % dim] = a / std::sqrt(a * (metric * a));
+      }
+    return transpose(edge);
   }
 
 

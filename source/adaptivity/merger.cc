@@ -272,16 +272,14 @@ namespace talus
              const double          volume)
     {
       Tensor<1, dim> length;
-      double         product = 1.;
+      double         scale =
+        points.data(points.reference_volume)[p] * determinant(edges) / volume;
       for (unsigned int k = 0; k < dim; ++k)
         {
           length[k] = transpose(edges)[k].norm() / stretch[k];
-          product *= length[k];
+          scale /= length[k];
         }
-      const double reference_volume = points.data(points.reference_volume)[p];
-      length *=
-        std::pow(reference_volume * determinant(edges) / (volume * product),
-                 1. / dim);
+      length *= std::pow(scale, 1. / dim);
       for (unsigned int k = 0; k < dim; ++k)
         {
           points.data(points.reference_length, k)[p] = length[k];
@@ -313,18 +311,19 @@ namespace talus
     const double loss = kinetic_energy_lost(points, p, q);
     const double id =
       std::min(points.data(points.id)[p], points.data(points.id)[q]);
-    const double body = points.data(points.body)[p];
-    const double g_p  = points.data(points.generation)[p],
-                 g_q  = points.data(points.generation)[q];
-    const double V_p  = volume_of_points<dim, double>(points, p),
-                 V_q  = volume_of_points<dim, double>(points, q);
-    const double   w  = joint.mass_share();
+    const double body       = points.data(points.body)[p];
+    const double g_p        = points.data(points.generation)[p],
+                 g_q        = points.data(points.generation)[q];
+    const double V_p        = volume_of_points<dim, double>(points, p),
+                 V_q        = volume_of_points<dim, double>(points, q);
+    const double w          = joint.mass_share();
+    const auto   stretch_of = [&](const unsigned int of, const unsigned int k) {
+      return edge_of_cell(points, k, of).norm() /
+             points.data(points.reference_length, k)[of];
+    };
     Tensor<1, dim> stretch;
     for (unsigned int k = 0; k < dim; ++k)
-      stretch[k] = w * edge_of_cell(points, k, p).norm() /
-                     points.data(points.reference_length, k)[p] +
-                   (1. - w) * edge_of_cell(points, k, q).norm() /
-                     points.data(points.reference_length, k)[q];
+      stretch[k] = w * stretch_of(p, k) + (1. - w) * stretch_of(q, k);
 
     join_columns(points, p, q, w, V_p / (V_p + V_q));
     points.data(points.id)[p]   = id;

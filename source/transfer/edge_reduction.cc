@@ -82,9 +82,13 @@ namespace talus
 
     /// Edges of the cell of point(s) p, with the limits of their lengths.
     template <int dim, typename Number>
-    class Edges
+    struct Edges
     {
-    public:
+      std::array<std::array<Number, dim>, dim> edge; ///< m
+      /// Squares of lengths: of the edges, of edges that may be shortened, and
+      /// of edges that must be shortened, m^2.
+      std::array<Number, dim> square, may_shorten, must_shorten;
+
       TALUS_ALWAYS_INLINE
       Edges(const PointsView<dim> &points,
             const unsigned int     p,
@@ -95,19 +99,19 @@ namespace talus
             const Number L =
               load<Number>(points.data(points.reference_length, k) + p);
             for (unsigned int i = 0; i < dim; ++i)
-              edge_[k][i] =
+              edge[k][i] =
                 L *
                 load<Number>(
                   points.data(points.deformation_gradient, dim * i + k) + p);
-            const Number initial =
+            square[k] = product<dim, Number>(edge[k], edge[k]);
+            const Number at_creation =
               L * load<Number>(points.data(points.creation_stretch, k) + p);
             const Number lower =
-              counts_shear ? max_stretch * L : min_growth * initial;
+              counts_shear ? max_stretch * L : min_growth * at_creation;
             const Number upper =
-              counts_shear ? max_stretch * L : max_growth * initial;
-            may_shorten_[k]  = lower * lower;
-            must_shorten_[k] = upper * upper;
-            square_[k]       = product<dim, Number>(edge_[k], edge_[k]);
+              counts_shear ? lower : max_growth * at_creation;
+            may_shorten[k]  = lower * lower;
+            must_shorten[k] = upper * upper;
           }
       }
 
@@ -115,14 +119,10 @@ namespace talus
       TALUS_ALWAYS_INLINE std::array<Number, dim>
                           combination(const Shift<dim> &shift) const
       {
-        std::array<Number, dim> v;
-        for (unsigned int i = 0; i < dim; ++i)
-          {
-            v[i] = Number(0.);
-            for (unsigned int j = 0; j < dim; ++j)
-              if (shift[j] != 0)
-                v[i] = (shift[j] > 0 ? v[i] + edge_[j][i] : v[i] - edge_[j][i]);
-          }
+        std::array<Number, dim> v{};
+        for (unsigned int j = 0; j < dim; ++j)
+          for (unsigned int i = 0; shift[j] != 0 && i < dim; ++i)
+            v[i] = (shift[j] > 0 ? v[i] + edge[j][i] : v[i] - edge[j][i]);
         return v;
       }
 
@@ -131,55 +131,28 @@ namespace talus
       is_long(const unsigned int k, const Shift<dim> &shift) const
       {
         const auto   v        = combination(shift);
-        const Number along    = product<dim, Number>(edge_[k], v);
+        const Number along    = product<dim, Number>(edge[k], v);
         const Number limit    = max_overlap * product<dim, Number>(v, v);
-        Number       shortest = square_[k];
+        Number       shortest = square[k];
         for (unsigned int j = 0; j < dim; ++j)
           if (shift[j] != 0)
-            shortest = min(shortest, square_[j]);
-        return (along * along > limit * limit) &
-               (square_[k] > may_shorten_[k]) &
-               ((shortest > (min_ratio<dim> * min_ratio<dim>)*square_[k]) |
-                (square_[k] > must_shorten_[k]));
+            shortest = min(shortest, square[j]);
+        return (along * along > limit * limit) & (square[k] > may_shorten[k]) &
+               ((shortest > (min_ratio<dim> * min_ratio<dim>)*square[k]) |
+                (square[k] > must_shorten[k]));
       }
 
-      /// Return edge @p k after shortening along @p shift, m.
-      std::array<Number, dim>
-      shortened(const unsigned int k, const Shift<dim> &shift) const
+      /// Shorten edge @p k along @p shift as far as possible.
+      void
+      shorten(const unsigned int k, const Shift<dim> &shift)
       {
         const auto   v = combination(shift);
-        const Number m = std::round(product<dim, Number>(edge_[k], v) /
+        const Number m = std::round(product<dim, Number>(edge[k], v) /
                                     product<dim, Number>(v, v));
-        auto         a = edge_[k];
         for (unsigned int i = 0; i < dim; ++i)
-          a[i] -= m * v[i];
-        return a;
+          edge[k][i] -= m * v[i];
+        square[k] = product<dim, Number>(edge[k], edge[k]);
       }
-
-      void
-      replace(const unsigned int k, const std::array<Number, dim> &edge)
-      {
-        edge_[k]   = edge;
-        square_[k] = product<dim, Number>(edge, edge);
-      }
-
-      /// Return a measure of the growth of edge @p k since the creation [-].
-      Number
-      growth(const unsigned int k) const
-      {
-        return square_[k] / must_shorten_[k];
-      }
-
-      const std::array<Number, dim> &
-      edge(const unsigned int k) const
-      {
-        return edge_[k];
-      }
-
-    private:
-      std::array<std::array<Number, dim>, dim> edge_; ///< m
-      std::array<Number, dim>                  square_, may_shorten_,
-        must_shorten_; ///< m^2
     };
 
 
@@ -201,38 +174,31 @@ namespace talus
 
 
 
-    /// Shorten one edge, or return false if no edge is long.
+    /// Shorten one edge and return its index, or dim if no edge is long.
     ///
     /// Of two edges the edge that has grown more is shortened: shear has made
     /// the edge, while the other connects neighbours since the creation. In a
-    /// film the choice decides whether the soil tears. Of several ways to
-    /// shorten an edge the way to the shortest is taken. Differences by
-    /// round-off decide nothing.
+    /// film the choice decides whether the soil tears. Differences by round-off
+    /// decide nothing.
     template <int dim>
-    bool
-    shorten_one(Edges<dim, double> &edges, unsigned int &edge)
+    unsigned int
+    shorten_one(Edges<dim, double> &edges)
     {
-      constexpr double        clearly = 1. + 1e-9;
-      double                  growth = 0, square = 0;
-      std::array<double, dim> best;
+      constexpr double clearly   = 1. + 1e-9;
+      unsigned int     shortened = dim;
+      double           growth    = 0;
+      Shift<dim>       along;
       for_each_shift<dim>([&](const unsigned int k, const auto &shift) {
-        if (!edges.is_long(k, shift))
+        const double of_k = edges.square[k] / edges.must_shorten[k];
+        if (!edges.is_long(k, shift) || of_k <= clearly * growth)
           return;
-        const auto   a       = edges.shortened(k, shift);
-        const double shorter = product<dim, double>(a, a);
-        const bool   is_best =
-          (growth > 0 && k == edge ? shorter * clearly < square
-                                   : edges.growth(k) > clearly * growth);
-        if (!is_best)
-          return;
-        edge   = k;
-        growth = edges.growth(k);
-        square = shorter;
-        best   = a;
+        shortened = k;
+        growth    = of_k;
+        along     = shift;
       });
-      if (growth > 0)
-        edges.replace(edge, best);
-      return growth > 0;
+      if (shortened != dim)
+        edges.shorten(shortened, along);
+      return shortened;
     }
 
 
@@ -245,15 +211,11 @@ namespace talus
            const unsigned int     p,
            const bool             counts_shear)
     {
-      Edges<dim, double>    edges(points, p, counts_shear);
-      std::array<bool, dim> has_changed{};
-      for (unsigned int k = 0; shorten_one(edges, k);)
-        has_changed[k] = true;
-      for (unsigned int k = 0; k < dim; ++k)
-        if (has_changed[k])
-          for (unsigned int i = 0; i < dim; ++i)
-            points.data(points.deformation_gradient, dim * i + k)[p] =
-              edges.edge(k)[i] / points.data(points.reference_length, k)[p];
+      Edges<dim, double> edges(points, p, counts_shear);
+      for (unsigned int k; (k = shorten_one(edges)) != dim;)
+        for (unsigned int i = 0; i < dim; ++i)
+          points.data(points.deformation_gradient, dim * i + k)[p] =
+            edges.edge[k][i] / points.data(points.reference_length, k)[p];
     }
   } // namespace
 

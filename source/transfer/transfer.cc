@@ -88,13 +88,13 @@ namespace talus
   Transfer<dim>::choose_boxes()
   {
     box_shape_.counts_shear = shear_.name == "counted";
-    if (box_rule_ == "fixed")
-      box_shape_.rule = BoxRule::fixed;
-    else if (box_rule_ == "convected domain")
-      box_shape_.rule = BoxRule::convected_domain;
-    else
-      box_shape_.rule = (box_shape_.counts_shear ? BoxRule::left_stretch
-                                                 : BoxRule::second_moments);
+    BoxRule parallel        = BoxRule::second_moments;
+    if (box_shape_.counts_shear)
+      parallel = BoxRule::left_stretch;
+    box_shape_.rule = box_rule_ == "fixed" ? BoxRule::fixed
+                      : box_rule_ == "convected domain"
+                        ? BoxRule::convected_domain
+                        : parallel;
   }
 
 

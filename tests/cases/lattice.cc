@@ -88,7 +88,7 @@ namespace
 {
   /// Area of the boxes as drawn over the area of the soil.
   double
-  cover(const State<2> &state)
+  cover(const talus::State<2> &state)
   {
     const Points<2> &points = state.points;
     double           boxes = 0, soil = 0;
@@ -157,15 +157,15 @@ TEST(SlabFailureLattice, TheWeakRowKeepsItsPoints)
         gates.near(text("median height of the boxes of the weak row at ",
                         time,
                         " s [m]"),
-                   weak_row(slab->points()).median_height,
+                   weak_row(slab.points()).median_height,
                    0.5,
                    0.02);
     }
   gates.at_most("sum of the boxes over the soil", most_cover, 1.05);
   gates.at_most("points of the weak layer at 60 s",
-                weak_row(slab->points()).n_points,
+                weak_row(slab.points()).n_points,
                 1500.);
-  gates.at_most("points at 60 s", slab->points().size(), 15000.);
+  gates.at_most("points at 60 s", slab.points().size(), 15000.);
 }
 
 

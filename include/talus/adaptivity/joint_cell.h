@@ -15,7 +15,7 @@ namespace talus
   ///   A A^T = w_p A_p A_p^T + w_q A_q A_q^T + 12 w_p w_q d d^T,
   /// with the mass fractions w and d = x_q - x_p. The moments leave a rotation
   /// of the edges free: an edge leads from p to q, and in 3-D the rotation
-  /// about this edge follows the mean of both cells. Two halves of a cell
+  /// about this edge follows the edges of p. Two halves of a cell
   /// become the cell. A common factor gives the sum of both volumes; the factor
   /// measures how far the union is from a cell.
   template <int dim>
@@ -47,7 +47,7 @@ namespace talus
     /// Relative error of the volume by second moments against the sum of both
     /// volumes, absolute value [-]. Zero if the union of the cells is a cell;
     /// larger if the cells overlap, leave a gap, are shifted or turned against
-    /// each other. Infinite if the edges of the cells do not match.
+    /// each other.
     double
     misfit() const
     {
@@ -62,8 +62,8 @@ namespace talus
     }
 
   private:
-    dealii::Tensor<1, dim> offset_; ///< x_q - x_p, m
-    dealii::Tensor<2, dim> mean_;   ///< mean edges, one doubled, m
+    dealii::Tensor<2, dim> edges_;  ///< edges of point p, m
+    dealii::Tensor<1, dim> offset_; ///< from p to q or back, m
     dealii::Tensor<2, dim> moment_; ///< A A^T scaled to the joint volume, m^2
     unsigned int           edge_of_pair_ = 0;
     unsigned int           axis_         = 0;
