@@ -184,13 +184,12 @@ namespace talus
     unsigned int
     shorten_one(Edges<dim, double> &edges)
     {
-      constexpr double clearly   = 1. + 1e-9;
-      unsigned int     shortened = dim;
-      double           growth    = 0;
-      Shift<dim>       along;
+      unsigned int shortened = dim;
+      double       growth    = 0;
+      Shift<dim>   along;
       for_each_shift<dim>([&](const unsigned int k, const auto &shift) {
         const double of_k = edges.square[k] / edges.must_shorten[k];
-        if (!edges.is_long(k, shift) || of_k <= clearly * growth)
+        if (!edges.is_long(k, shift) || of_k <= (1. + 1e-9) * growth)
           return;
         shortened = k;
         growth    = of_k;

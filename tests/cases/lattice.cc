@@ -20,7 +20,7 @@ using namespace talus::cases;
 namespace
 {
   double
-  largest(const std::vector<double> &values)
+  max_of_rows(const std::vector<double> &values)
   {
     return *std::max_element(values.begin(), values.end());
   }
@@ -32,11 +32,11 @@ namespace
   expect_whole(Verification &gates, const Table &table, const double max_empty)
   {
     gates.at_most("empty interior cells",
-                  largest(table["empty interior cells"]),
+                  max_of_rows(table["empty interior cells"]),
                   max_empty);
-    gates.at_most("empty columns", largest(table["empty columns"]), 0.);
+    gates.at_most("empty columns", max_of_rows(table["empty columns"]), 0.);
     gates.at_most("connected bodies",
-                  largest(table["connected bodies"]),
+                  max_of_rows(table["connected bodies"]),
                   1.,
                   "1");
   }
@@ -44,7 +44,7 @@ namespace
 
 
   double
-  largest_remainder(const Table &table)
+  max_remainder(const Table &table)
   {
     double largest = 0;
     for (const double remainder : table["energy remainder [J]"])
@@ -88,7 +88,7 @@ namespace
 {
   /// Area of the boxes as drawn over the area of the soil.
   double
-  cover(const talus::State<2> &state)
+  cover_of_boxes(const talus::State<2> &state)
   {
     const Points<2> &points = state.points;
     double           boxes = 0, soil = 0;
@@ -152,7 +152,7 @@ TEST(SlabFailureLattice, TheWeakRowKeepsItsPoints)
     {
       while (slab->state().time < time)
         slab->advance();
-      most_cover = std::max(most_cover, cover(slab->state()));
+      most_cover = std::max(most_cover, cover_of_boxes(slab->state()));
       if (time == 24. || time == 40.)
         gates.near(text("median height of the boxes of the weak row at ",
                         time,
@@ -178,7 +178,7 @@ TEST(SlabFailureLattice, OneBodyWithoutHoles)
   const Table  table = run<2>("slab-failure.prm", "slab-failure-statistics");
   expect_whole(gates, table, 1.);
   gates.at_most("energy remainder / gravity work",
-                largest_remainder(table) / table["gravity work [J]"].back(),
+                max_remainder(table) / table["gravity work [J]"].back(),
                 0.006);
 }
 
@@ -193,13 +193,13 @@ TEST(SlopeLattice, TheFilmDoesNotTear)
                      "prm/slope.prm, End time = 60",
                      "one body, no empty column");
   const Table  table = run<2>("slope.prm", "slope-lattice", {"End time=60"});
-  gates.at_most("empty columns", largest(table["empty columns"]), 0.);
+  gates.at_most("empty columns", max_of_rows(table["empty columns"]), 0.);
   gates.at_most("connected bodies",
-                largest(table["connected bodies"]),
+                max_of_rows(table["connected bodies"]),
                 1.,
                 "1");
   gates.at_most("points at generation limit",
-                largest(table["points at generation limit"]),
+                max_of_rows(table["points at generation limit"]),
                 40.);
 }
 
