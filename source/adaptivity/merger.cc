@@ -8,7 +8,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 
 namespace talus
@@ -181,6 +180,8 @@ namespace talus
     double loss = 0;
     for (const Segment &segment : points.segments())
       {
+        if (is_kept_ && is_kept_(segment.body))
+          continue;
         const Cell<dim> &cell = grid.cells()[segment.cell];
         const double     size = cell.size * (cell.uniform ? 1. : 0.5);
         members_.clear();
@@ -339,65 +340,21 @@ namespace talus
 
 
 
-  namespace
-  {
-    // A rate law keeps its elastic energy as a column, which merging has summed
-    // up. A law whose stress is a function of the deformation gradient stores
-    // another energy at the mean of two deformation gradients: a step of zero
-    // length computes stress and energy anew.
-    /// Return the elastic energy lost in @p batch, J.
-    template <int dim>
-    double
-    restore_hyperelastic(State<dim>           &state,
-                         const Materials<dim> &materials,
-                         const Batch          &batch)
-    {
-      double loss = 0;
-      materials.for_each_material_range(
-        state.points,
-        batch,
-        [&](const auto &law, const unsigned int begin, const unsigned int end) {
-          if (!law.is_hyperelastic())
-            return;
-          const auto energy = [&]() {
-            const double *const of_point =
-              state.points.data(state.points.elastic_energy);
-            return std::accumulate(of_point + begin, of_point + end, 0.);
-          };
-          state.workspace.reinit(begin, end);
-          for (unsigned int i = 0; i < dim; ++i)
-            for (unsigned int j = 0; j < dim; ++j)
-              std::fill_n(state.workspace.velocity_gradient(i, j),
-                          end - begin,
-                          0.);
-          const double before = energy();
-          law.update_stress(
-            state.points, state.workspace, begin, end, /*dt=*/0.);
-          loss += before - energy();
-        });
-      return loss;
-    }
-  } // namespace
-
-
-
   template <int dim>
   void
   Merger<dim>::apply(State<dim>           &state,
                      const Splitter<dim>  &splitter,
                      const Materials<dim> &materials)
   {
-    const unsigned long n_before = n_merges_;
-    double             &work     = state.accounts.energy("merging work");
-    work += merge(state.points,
-                  state.grid,
-                  state.constants.box_shape.rule,
-                  state.constants.added_mass,
-                  splitter);
-    if (n_merges_ > n_before)
-      state.points.for_each_batch([&](const Batch &batch) {
-        work += restore_hyperelastic(state, materials, batch);
-      });
+    is_kept_ = [&materials](const unsigned int body) {
+      return materials.of_body(body).is_hyperelastic();
+    };
+    state.accounts.energy("merging work") +=
+      merge(state.points,
+            state.grid,
+            state.constants.box_shape.rule,
+            state.constants.added_mass,
+            splitter);
   }
 
 

@@ -65,8 +65,7 @@ TEST(Boxes, CoverTheSlideOnce)
                         "Splitting/Shear=ignored",
                      "the area of the soil");
   const Overrides coarse = {"Grid/Cell size=0.5",
-                            "Splitting/Directions=stretched, "
-                            "Splitting/Shear=ignored",
+                            "Splitting/Directions=stretched",
                             "Splitting/Shear=ignored"};
   const Boxes     boxes  = boxes_at("landslide-quick.prm", 30., coarse);
   gates.at_most("sum of the boxes over the soil, - 1",

@@ -60,7 +60,7 @@ namespace
 TEST(ThrownDisc, TheDirectionDoesNotMatter)
 {
   double least = 1e9, most = 0;
-  for (const std::string velocity : {"y; x", "x; -y", "-x; y"})
+  for (const std::string velocity : {"y; x", "x; -y", "-y; -x"})
     {
       Verification gates("Disc thrown apart, velocity " + velocity,
                          "tests/cases/thrown-disc.prm",

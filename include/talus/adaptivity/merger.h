@@ -14,6 +14,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -142,6 +143,10 @@ namespace talus
     unsigned int interval_  = 100;
     double       length_    = 0.45;
     double       tolerance_ = 0.15;
+
+    /// Whether the points of a body stay: the stress of a hyperelastic law is a
+    /// function of F, and joint edges would change F.
+    std::function<bool(unsigned int)> is_kept_;
 
     std::vector<unsigned int> members_; ///< points of the current segment
     std::vector<unsigned int> removed_;
