@@ -16,9 +16,8 @@ namespace talus
     {
       Tensor<2, dim> A;
       for (unsigned int k = 0; k < dim; ++k)
-        for (unsigned int i = 0; i < dim; ++i)
-          A[i][k] = edge_of_cell(points, k, p)[i];
-      return A;
+        A[k] = edge_of_cell(points, k, p);
+      return transpose(A);
     }
 
 

@@ -258,47 +258,10 @@ namespace talus
 
 
 
-  namespace
-  {
-    /// Set edges, reference lengths and deformation gradient of point @p p from
-    /// its @p edges, m, as columns. The reference lengths are the edges divided
-    /// by the @p stretch [-] of each, times a common factor that gives the
-    /// @p volume, m^dim.
-    template <int dim>
-    void
-    set_cell(Points<dim>          &points,
-             const unsigned int    p,
-             const Tensor<2, dim> &edges,
-             const Tensor<1, dim> &stretch,
-             const double          volume)
-    {
-      Tensor<1, dim> length;
-      double         scale =
-        points.data(points.reference_volume)[p] * determinant(edges) / volume;
-      for (unsigned int k = 0; k < dim; ++k)
-        {
-          length[k] = transpose(edges)[k].norm() / stretch[k];
-          scale /= length[k];
-        }
-      length *= std::pow(scale, 1. / dim);
-      for (unsigned int k = 0; k < dim; ++k)
-        {
-          points.data(points.reference_length, k)[p] = length[k];
-          for (unsigned int i = 0; i < dim; ++i)
-            points.data(points.deformation_gradient, dim * i + k)[p] =
-              edges[i][k] / length[k];
-        }
-    }
-  } // namespace
-
-
-
   /// Replace point @p p by the union of @p p and @p q, with the cell @p joint.
   /// The splitter measures further stretch from the new edges. Two points of
   /// one generation give a point of the previous generation; otherwise the
-  /// smaller point joins the larger. The stretch of each edge is the mean: a
-  /// hyperelastic law computes its stress from F. Returns the kinetic energy
-  /// lost, J.
+  /// smaller point joins the larger. Returns the kinetic energy lost, J.
   template <int dim>
   double
   Merger<dim>::merge_pair(Points<dim>          &points,
@@ -317,22 +280,15 @@ namespace talus
                  g_q        = points.data(points.generation)[q];
     const double V_p        = volume_of_points<dim, double>(points, p),
                  V_q        = volume_of_points<dim, double>(points, q);
-    const double w          = joint.mass_share();
-    const auto   stretch_of = [&](const unsigned int of, const unsigned int k) {
-      return edge_of_cell(points, k, of).norm() /
-             points.data(points.reference_length, k)[of];
-    };
-    Tensor<1, dim> stretch;
-    for (unsigned int k = 0; k < dim; ++k)
-      stretch[k] = w * stretch_of(p, k) + (1. - w) * stretch_of(q, k);
-
-    join_columns(points, p, q, w, V_p / (V_p + V_q));
+    join_columns(points, p, q, joint.mass_share(), V_p / (V_p + V_q));
     points.data(points.id)[p]   = id;
     points.data(points.body)[p] = body;
     points.data(points.generation)[p] =
       (g_p == g_q ? std::max(0., g_p - 1.) : std::min(g_p, g_q));
-    set_cell(points, p, joint.edges(), stretch, V_p + V_q);
-    initialize_stretch(points, p, p + 1, rule);
+    const Tensor<2, dim> edges = joint.edges();
+    for (unsigned int c = 0; c < dim * dim; ++c)
+      points.data(points.edges, c)[p] = edges[c / dim][c % dim];
+    begin_stretch(points, p, p + 1, rule);
     conservation_.add(points, p, -1.);
     conservation_.exclude_kinetic_energy(loss);
     return loss;

@@ -76,12 +76,10 @@ namespace talus
                                    const double  cell_size,
                                    const BoxRule rule) const
   {
-    const Number stretch = stretch_to_split<Number, dim>(points, rule, d, p);
-    const Number at_creation =
-      load<Number>(points.data(points.creation_stretch, d) + p);
-    const Number length =
-      stretch * load<Number>(points.data(points.reference_length, d) + p);
-    const auto is_stretched = (stretch > threshold_ * at_creation) &
+    const Number length = length_to_split<Number, dim>(points, rule, d, p);
+    const auto   at_creation =
+      load<Number>(points.data(points.length_at_creation, d) + p);
+    const auto is_stretched = (length > threshold_ * at_creation) &
                               (length > Number(minimum_length_ * cell_size));
     // The box of a point longer than a cell would be clipped and leave gaps.
     const auto is_too_long = length > Number((1. + 1e-9) * cell_size);
@@ -260,8 +258,8 @@ namespace talus
                               const BoxRule      rule) const
   {
     for (unsigned int d = 0; d < dim; ++d)
-      if (stretch_to_split<double, dim>(points.view(), rule, d, p) >
-          threshold_ * points.data(points.creation_stretch, d)[p])
+      if (length_to_split<double, dim>(points.view(), rule, d, p) >
+          threshold_ * points.data(points.length_at_creation, d)[p])
         return true;
     return false;
   }
@@ -447,9 +445,10 @@ namespace talus
     /// places: by a quarter of edge_to_split() in each direction of the split.
     /// Bit i of `child` selects the side along the i-th of these edges.
     ///
-    /// The initial position moves by F^-1 (x_d - x), as loads and initial
-    /// fields are functions of it. The move is exact along an edge of the cell,
-    /// unless reduce_edges() has replaced the edge (doc/method.md, section 6).
+    /// The initial position moves, too, as loads and initial fields are
+    /// functions of it: by diag(L) A^-1 (x_d - x) with reference_lengths() L.
+    /// The move is exact at the first split of a point, unless reduce_edges()
+    /// has replaced an edge (doc/method.md, section 6).
     template <int dim>
     class Offset
     {
@@ -460,14 +459,15 @@ namespace talus
              const unsigned int axes)
         : axes_(axes)
       {
-        const auto to_material = inverse(
-          load_matrix<dim, double>(points, points.deformation_gradient, p));
+        const auto to_edges =
+          inverse(load_matrix<dim, double>(points, points.edges, p));
+        const auto L = reference_lengths(points, p);
         for (unsigned int d = 0; d < dim; ++d)
           {
             quarter_[d] = 0.25 * edge_to_split(points, rule, d, p);
             for (unsigned int e = 0; e < dim; ++e)
               for (unsigned int i = 0; i < dim; ++i)
-                material_[d][e] += to_material[e][i] * quarter_[d][i];
+                material_[d][e] += L[e] * to_edges[e][i] * quarter_[d][i];
           }
       }
 
@@ -501,11 +501,11 @@ namespace talus
   /// Split point @p p along @p axes, and check conservation.
   ///
   /// The first child takes the place of the parent, so a split into n children
-  /// appends n - 1 points and leaves no hole. F, stress and internal variables
-  /// are copied: the children are the same material in the same state. The
-  /// stretch at creation becomes the current stretch on all axes, so that the
-  /// threshold applies to the stretch after the split; otherwise a child could
-  /// be split again at once.
+  /// appends n - 1 points and leaves no hole. Stress and internal variables are
+  /// copied: the children are the same material in the same state. The lengths
+  /// at creation become the current lengths of all edges, so that the threshold
+  /// applies to the stretch after the split; otherwise a child could be split
+  /// again at once. Boxes of the rule `fixed` are halved with the edges.
   template <int dim>
   void
   Splitter<dim>::split(Points<dim>       &points,
@@ -523,18 +523,13 @@ namespace talus
         for (unsigned int c = 0; c < column.n_components; ++c)
           points.data(column.first, c)[p] /= n_children;
     for (unsigned int d = 0; d < dim; ++d)
-      {
-        if (axes & (1u << d))
-          points.data(points.reference_length, d)[p] *= 0.5;
-        points.data(points.creation_stretch, d)[p] =
-          stretch_to_split<double, dim>(std::as_const(points).view(),
-                                        rule,
-                                        d,
-                                        p);
-      }
-    // Lengths of rows depend on all reference lengths.
-    if (rule == BoxRule::second_moments)
-      update_stretch(points, p, p + 1, rule);
+      if (axes & (1u << d))
+        {
+          for (unsigned int i = 0; i < dim; ++i)
+            points.data(points.edges, dim * i + d)[p] *= 0.5;
+          points.data(points.box_length, d)[p] *= 0.5;
+        }
+    begin_stretch(points, p, p + 1, rule);
     const double generation = ++points.data(points.generation)[p];
     statistics_.largest_generation =
       std::max(statistics_.largest_generation,

@@ -23,7 +23,7 @@ namespace talus
                          const unsigned int p)
     {
       Tensor<1, dim> half =
-        half_lengths_of_box(state.points, state.constants.box_shape, p);
+        half_lengths_of_box(state.points, p);
       for (unsigned int d = 0; d < dim; ++d)
         half[d] = std::min(half[d], 0.5 * state.grid.cells()[cell].size);
       return half;
@@ -63,29 +63,12 @@ namespace talus
     template <int dim>
     TALUS_ALWAYS_INLINE std::array<Simd<simd_width>, dim>
                         load_half_lengths(const Points<dim> &points,
-                                          const BoxShape    &shape,
-                                          const unsigned int p,
-                                          const unsigned int n)
+                                          const unsigned int p)
     {
       using Number = Simd<simd_width>;
       std::array<Number, dim> half;
-      if (shape.rule != BoxRule::convected_domain)
-        {
-          for (unsigned int d = 0; d < dim; ++d)
-            half[d] =
-              0.5 * load<Number>(points.data(points.reference_length, d) + p) *
-              load<Number>(points.data(points.stretch, d) + p);
-          return half;
-        }
-      double by_point[dim][simd_width] = {};
-      for (unsigned int i = 0; i < n; ++i)
-        {
-          const auto of_point = half_lengths_of_box(points, shape, p + i);
-          for (unsigned int d = 0; d < dim; ++d)
-            by_point[d][i] = of_point[d];
-        }
       for (unsigned int d = 0; d < dim; ++d)
-        half[d] = load<Number>(by_point[d]);
+        half[d] = 0.5 * load<Number>(points.data(points.box_length, d) + p);
       return half;
     }
   } // namespace
@@ -108,7 +91,7 @@ namespace talus
       {
         const unsigned int n = std::min(simd_width, segment.end - p);
         const auto         half =
-          load_half_lengths(points, state.constants.box_shape, p, n);
+          load_half_lengths(points, p);
         Number distance(0.), speed(0.), support(0.);
         for (unsigned int d = 0; d < dim; ++d)
           {

@@ -180,7 +180,7 @@ namespace talus
     const Points<dim> &points = problem.state.points;
     const Box<dim>    &domain = problem.state.grid.domain();
     const auto         x      = load_place(points, points.position, p);
-    double half_width = 0.5 * points.data(points.reference_length, d)[p];
+    double half_width = 0.5 * points.data(points.box_length, d)[p];
     for (unsigned int k = 0; k < 5; ++k, half_width *= 0.5)
       {
         Point<dim> lower = x, upper = x;

@@ -43,7 +43,6 @@ namespace talus
   ColumnSums<dim>::find_footprints(const State<dim> &state, const Batch &batch)
   {
     const Points<dim> &points = state.points;
-    const BoxRule      rule   = state.constants.box_shape.rule;
     const unsigned int n      = batch.end - batch.begin;
     footprints_.resize(n);
     volumes_.resize(n);
@@ -51,35 +50,24 @@ namespace talus
       {
         const unsigned int  d = axis_of_plan<dim>(a);
         const double *const length =
-          points.data(points.reference_length, d) + batch.begin;
-        const double *const stretch =
-          points.data(points.stretch, d) + batch.begin;
+          points.data(points.box_length, d) + batch.begin;
         std::copy_n(points.data(points.position, d) + batch.begin,
                     n,
                     footprints_.centre[a].begin());
         double *const half = footprints_.half[a].data();
         for (unsigned int i = 0; i < n; ++i)
-          half[i] = 0.5 * length[i] * stretch[i];
+          half[i] = 0.5 * length[i];
       }
     for (const Segment &segment : points.segments(batch))
       {
         const double longest =
           longest_box(state, state.grid.cells()[segment.cell].size);
-        for (unsigned int p = segment.begin; p < segment.end; ++p)
-          if (rule == BoxRule::convected_domain)
+        for (unsigned int a = 0; a < dim - 1; ++a)
+          for (unsigned int p = segment.begin; p < segment.end; ++p)
             {
-              const auto lengths =
-                lengths_of<dim>(box_edges(state, p, longest));
-              for (unsigned int a = 0; a < dim - 1; ++a)
-                footprints_.half[a][p - batch.begin] =
-                  0.5 * lengths[axis_of_plan<dim>(a)];
+              double &half = footprints_.half[a][p - batch.begin];
+              half         = std::min(half, 0.5 * longest);
             }
-          else
-            for (unsigned int a = 0; a < dim - 1; ++a)
-              {
-                double &half = footprints_.half[a][p - batch.begin];
-                half         = std::min(half, 0.5 * longest);
-              }
       }
     for_each_simd(batch.begin,
                   batch.end,

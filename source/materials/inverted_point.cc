@@ -26,7 +26,7 @@ namespace talus
             if (d != 1)
               is_above &= std::abs(points.data(points.position, d)[q] -
                                    points.data(points.position, d)[p]) <=
-                          points.data(points.reference_length, d)[q];
+                          points.data(points.box_length, d)[q];
           if (is_above)
             height = std::max(height,
                               points.data(points.position, 1)[q] -
@@ -79,8 +79,8 @@ namespace talus
   {
     for (unsigned int p = begin; p < end; ++p)
       {
-        const double J = determinant(
-          load_matrix<dim, double>(points, points.deformation_gradient, p));
+        const double J = volume_of_points<dim, double>(points, p) /
+                         points.data(points.reference_volume)[p];
         // Written to find values that are not a number, too.
         if (J > 0)
           continue;

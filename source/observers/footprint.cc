@@ -98,7 +98,7 @@ namespace talus
                                   const unsigned int p) {
           const double half_cell = 0.5 * state.grid.cells()[segment.cell].size;
           const auto   half =
-            half_lengths_of_box(points, state.constants.box_shape, p);
+            half_lengths_of_box(points, p);
           Columns first, last;
           for (unsigned int d = 0; d < dim - 1; ++d)
             {

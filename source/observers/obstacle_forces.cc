@@ -53,7 +53,7 @@ namespace talus
               if (distance >= 0)
                 continue;
               const double support = support_of_box(
-                half_lengths_of_box(points, state.constants.box_shape, p),
+                half_lengths_of_box(points, p),
                 normal);
               const double v     = volume_of_points<dim, double>(points, p);
               Penetration &own   = result[k];

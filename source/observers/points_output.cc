@@ -127,15 +127,11 @@ namespace talus
           return load_vector(points, points.position, p) -
                  load_vector(points, points.initial_position, p);
         }));
-      fields.push_back(
-        vector_field<dim>("box length", "m", [&state](const unsigned int p) {
-          return box_lengths(state, p);
-        }));
     }
 
 
 
-    /// Append derived scalars. J is det F, as for the volume in the dynamics.
+    /// Append derived scalars. J is the volume over the initial volume.
     template <int dim>
     void
     append_derived_scalars(std::vector<Field> &fields,
@@ -154,8 +150,8 @@ namespace talus
           return stress_measures(points, p).second;
         }));
       fields.push_back(scalar_field("J", "", [&points](const unsigned int p) {
-        return determinant<dim>(
-          load_matrix<dim, double>(points, points.deformation_gradient, p));
+        return volume_of_points<dim, double>(points, p) /
+               points.data(points.reference_volume)[p];
       }));
     }
 
@@ -195,10 +191,9 @@ namespace talus
 
 
 
-    /// Create a cell per box, with values at cells. Corners are in the order of
-    /// deal.II, x fastest: bit d of v is the side along axis d. Edges of a
-    /// convected domain may be oblique. Neighbouring boxes share no vertices,
-    /// because boxes have gaps and overlaps.
+    /// Create a cell per point, with values at cells. Corners are in the order
+    /// of deal.II, x fastest: bit d of v is the side along edge d. Neighbours
+    /// share no vertices, because points drift: there are gaps and overlaps.
     template <int dim>
     OutputCells
     points_as_boxes(const State<dim> &state)
@@ -209,7 +204,7 @@ namespace talus
       for (unsigned int p = 0; p < points.size(); ++p)
         {
           const Point<dim> centre = load_place(points, points.position, p);
-          const auto       edges  = box_edges(state, p);
+          const auto       edges  = drawn_edges(state, p);
           for (unsigned int v = 0; v < cells.n_vertices_per_cell(); ++v)
             {
               Point<dim> corner = centre;

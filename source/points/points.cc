@@ -29,24 +29,19 @@ namespace talus
     constexpr auto copied = Inheritance::copied, divided = Inheritance::divided;
     constexpr auto scalar = ColumnKind::scalars, vector = ColumnKind::vector,
                    symmetric   = ColumnKind::symmetric_tensor,
-                   deformation = ColumnKind::deformation;
+                   tensor      = ColumnKind::tensor;
     const std::string volume   = (dim == 2 ? "m^2" : "m^3");
     using C                    = PointColumns<dim>;
     add(C::position, "position", "m", vector, copied);
     add(C::velocity, "velocity", "m/s", vector, copied);
-    add(C::deformation_gradient,
-        "deformation gradient",
-        "-",
-        deformation,
-        copied);
+    add(C::edges, "edges", "m", tensor, copied);
     add(C::stress, "stress", "Pa", symmetric, copied);
     add(C::mass, "mass", "kg", scalar, divided);
     add(C::reference_volume, "reference volume", volume, scalar, divided);
-    add(C::reference_length, "reference length", "m", vector, copied);
-    add(C::stretch, "stretch", "-", vector, copied);
+    add(C::box_length, "box length", "m", vector, copied);
     add(C::elastic_energy, "elastic energy", "J", scalar, divided);
     add(C::plastic_work, "plastic work", "J", scalar, divided);
-    add(C::creation_stretch, "creation stretch", "-", vector, copied);
+    add(C::length_at_creation, "length at creation", "m", vector, copied);
     add(C::generation, "generation", "-", scalar, copied);
     add(C::initial_position, "initial position", "m", vector, copied);
     add(C::id, "id", "-", scalar, copied);

@@ -105,7 +105,7 @@ namespace talus
 
 
 
-  /// Append a point at rest, undeformed (F = I) and without stress. @p density
+  /// Append a point at rest, undeformed and without stress. @p density
   /// in kg/m^3.
   template <int dim>
   void
@@ -121,10 +121,9 @@ namespace talus
         volume *= point.length[d];
         points.data(points.position, d)[p]         = point.x[d];
         points.data(points.initial_position, d)[p] = point.x[d];
-        points.data(points.reference_length, d)[p] = point.length[d];
-        points.data(points.stretch, d)[p]          = 1.;
-        points.data(points.creation_stretch, d)[p] = 1.;
-        points.data(points.deformation_gradient, d * (dim + 1))[p] = 1.;
+        points.data(points.edges, d * (dim + 1))[p]  = point.length[d];
+        points.data(points.box_length, d)[p]         = point.length[d];
+        points.data(points.length_at_creation, d)[p] = point.length[d];
       }
     points.data(points.reference_volume)[p] = volume;
     points.data(points.mass)[p]             = density * volume;

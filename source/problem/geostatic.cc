@@ -2,6 +2,7 @@
 #include <talus/base/errors.h>
 #include <talus/points/points_kernel.h>
 #include <talus/problem/geostatic.h>
+#include <talus/transfer/box_rule.h>
 
 #include <boost/serialization/array.hpp>
 
@@ -42,7 +43,7 @@ namespace talus
 
 
 
-    /// Return the brick at the initial place with the reference length: soil
+    /// Return the brick at the initial place with the reference lengths: soil
     /// without displacement.
     template <int dim>
     Brick<dim>
@@ -51,10 +52,11 @@ namespace talus
              const std::vector<double> &weight_density)
     {
       Brick<dim> brick;
+      const auto length = reference_lengths(points, p);
       for (unsigned int d = 0; d < dim; ++d)
         {
           brick.centre[d] = points.data(points.initial_position, d)[p];
-          brick.length[d] = points.data(points.reference_length, d)[p];
+          brick.length[d] = length[d];
         }
       brick.density = weight_density[points.data(points.body)[p]];
       return brick;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
-#include <talus/points/points_kernel.h>
+#include <talus/materials/kinematics_kernel.h>
 #include <talus/problem/initial_state.h>
 
 #include <array>
@@ -117,15 +117,16 @@ namespace talus
 
 
 
-  /// Move points to X + u and set F = I + du/dX, from which hyperelastic laws
-  /// compute the stress. Central differences, because the user gives only u,
+  /// Move points to X + u and set the velocity gradient in @p workspace to
+  /// du/dX: the deformation is a step of one second. Central differences, because the user gives only u,
   /// and derivatives by hand would be a source of errors.
   template <int dim>
   void
-  InitialState<dim>::displace(Points<dim>       &points,
-                              const unsigned int begin,
-                              const unsigned int end,
-                              const Constants   &constants) const
+  InitialState<dim>::displace(Points<dim>        &points,
+                              StepWorkspace<dim> &workspace,
+                              const unsigned int  begin,
+                              const unsigned int  end,
+                              const Constants    &constants) const
   {
     Expression<dim> u(path("Initial displacement"),
                       displacement_,
@@ -143,8 +144,12 @@ namespace talus
             points.data(points.position, i)[p] =
               X[i] + u.finite_value(X, 0., i);
             for (unsigned int j = 0; j < dim; ++j)
-              F[i][j] += derivative(
-                u, X, i, j, 0.01 * points.data(points.reference_length, j)[p]);
+              {
+                const double du = derivative(
+                  u, X, i, j, 0.01 * points.data(points.box_length, j)[p]);
+                workspace.velocity_gradient(i, j)[p - begin] = du;
+                F[i][j] += du;
+              }
           }
         // Nonpositive volumes would fail in the first step with a less helpful
         // message.
@@ -173,7 +178,6 @@ namespace talus
                                  1. / min_volume_ratio,
                                  " was expected. Make the displacement "
                                  "smaller.")));
-        store_matrix(points, points.deformation_gradient, p, F);
       }
   }
 
@@ -201,9 +205,9 @@ namespace talus
 
 
 
-  /// Stress first, then displacement, then dependent columns: stretch of the
-  /// boxes and, for hyperelastic laws, the stress, by the law's own update with
-  /// a step without strain. Rate laws keep the given stress.
+  /// Stress first, then displacement, then the deformation: for hyperelastic
+  /// laws by the law's own update, which sets the stress. Rate laws keep the
+  /// given stress.
   template <int dim>
   void
   InitialState<dim>::deform(Points<dim>              &points,
@@ -217,17 +221,18 @@ namespace talus
       set_stress(points, begin, end, constants);
     if (displacement_.empty())
       return;
-    displace(points, begin, end, constants);
-    initialize_stretch(points, begin, end, rule);
-    if (!law.is_hyperelastic())
-      return;
     StepWorkspace<dim> workspace;
-    // Velocity gradients of zero for the points [begin, end).
     workspace.reinit(begin, end);
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-        std::fill_n(workspace.velocity_gradient(i, j), end - begin, 0.);
-    law.update_stress(points, workspace, begin, end, /*dt=*/0.);
+    displace(points, workspace, begin, end, constants);
+    if (law.is_hyperelastic())
+      law.update_stress(points, workspace, begin, end, /*dt=*/1.);
+    else
+      for (unsigned int p = begin; p < end; ++p)
+        advance_edges<dim, double>(points.view(),
+                                   workspace.view(begin, end),
+                                   p,
+                                   /*dt=*/1.);
+    begin_stretch(points, begin, end, rule);
   }
 
 

@@ -118,13 +118,13 @@ namespace talus
         // At t = 0; set_velocity() corrects the velocity for half a step before
         // the start.
         initial.set_velocity(points, b, 0., inputs_.constants);
+        material.initialize(points, begin, points.size());
         initial.deform(points,
                        begin,
                        points.size(),
                        material,
                        state.constants.box_shape.rule,
                        inputs_.constants);
-        material.initialize(points, begin, points.size());
       }
     set_undrained_strength(points,
                            bodies_.list(),

@@ -3,6 +3,7 @@
 #include <talus/base/errors.h>
 #include <talus/simulation/explicit_scheme.h>
 #include <talus/simulation/null_space_filter.h>
+#include <talus/transfer/box_rule.h>
 #include <talus/transfer/edge_reduction.h>
 
 #include <deal.II/base/mpi.h>
@@ -244,8 +245,9 @@ namespace talus
                             state_.time,
                             state_.time + dt);
     groups_.rewind();
-    const BoxRule rule         = transfer_.box_shape().rule;
-    double       &gravity_work = state_.accounts.energy("gravity work");
+    const auto rule            = transfer_.box_shape().rule;
+    const bool counts_shear    = transfer_.box_shape().counts_shear;
+    double    &gravity_work    = state_.accounts.energy("gravity work");
     state_.points.for_each_batch([&](const Batch &batch) {
       state_.workspace.reinit(batch.begin, batch.end);
       confinement_.note(state_, batch);
@@ -267,34 +269,12 @@ namespace talus
                                        state_.workspace,
                                        batch,
                                        dt);
-      reduce_edges(batch);
-      update_stretch(state_.points, batch.begin, batch.end, rule);
+      reduce_edges(state_.points, batch.begin, batch.end, counts_shear);
+      update_box_lengths(state_.points, batch.begin, batch.end, rule);
       timer_.lap(PhaseTimer::stress_update);
       splitter_.mark(state_.points, batch, state_.grid, rule);
       timer_.lap(PhaseTimer::splitting);
     });
-  }
-
-
-
-  /// Reduce the edges of all points but those of hyperelastic laws, which need
-  /// the whole deformation.
-  template <int dim>
-  void
-  ExplicitScheme<dim>::reduce_edges(const Batch &batch)
-  {
-    problem_.materials.for_each_material_range(
-      state_.points,
-      batch,
-      [&](const MaterialModel<dim> &model,
-          const unsigned int        begin,
-          const unsigned int        end) {
-        if (!model.is_hyperelastic())
-          talus::reduce_edges(state_.points,
-                              begin,
-                              end,
-                              transfer_.box_shape().counts_shear);
-      });
   }
 
 

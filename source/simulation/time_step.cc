@@ -25,9 +25,8 @@ namespace talus
 
 
     /// Half distance between opposite sides of the box(es) of point(s) @p p, in
-    /// cells, clamped as in the weights. For a convected domain the value is
-    /// approximate: the sides belong to the axes of the undeformed box, and the
-    /// normals are F^-T e_d.
+    /// cells, clamped as in the weights. The sides of a convected domain at the
+    /// ends of edge d have the normal A^-T e_d.
     template <int dim, typename Number>
     TALUS_ALWAYS_INLINE std::array<Number, dim>
     half_widths_in_cells(const PointsView<dim, const double> &points,
@@ -43,16 +42,14 @@ namespace talus
               half_length_in_cells<dim>(points, shape, d, p, inverse_cell_size);
           return half;
         }
-      const Matrix<dim, Number> inverse_F = inverse(
-        load_matrix<dim, Number>(points, points.deformation_gradient, p));
+      const Matrix<dim, Number> normals =
+        inverse(load_matrix<dim, Number>(points, points.edges, p));
       for (unsigned int d = 0; d < dim; ++d)
         {
-          Number square = inverse_F[d][0] * inverse_F[d][0];
+          Number square = normals[d][0] * normals[d][0];
           for (unsigned int i = 1; i < dim; ++i)
-            square += inverse_F[d][i] * inverse_F[d][i];
-          const Number L0 =
-            load<Number>(points.data(points.reference_length, d) + p);
-          half[d] = clamp(0.5 * L0 / sqrt(square) * inverse_cell_size,
+            square += normals[d][i] * normals[d][i];
+          half[d] = clamp(0.5 / sqrt(square) * inverse_cell_size,
                           shape.min_half,
                           shape.max_half);
         }
@@ -162,7 +159,7 @@ namespace talus
             materials.of_body(segment.body).wave_speed(points, p) + volume;
           for (unsigned int d = 0; d < dim; ++d)
             sum += points.data(points.velocity, d)[p] +
-                   points.data(points.stretch, d)[p];
+                   points.data(points.box_length, d)[p];
           if (!std::isfinite(sum) || !(volume > 0))
             return text("point ",
                         points.data(points.id)[p],

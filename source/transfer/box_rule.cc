@@ -8,113 +8,149 @@ namespace talus
 
   namespace
   {
-    /// Stretches l_d/L_d of the box with the second moments, along the axes, of
-    /// the cell of edges A = F diag(L): l_d is the length of row d of A.
+    /// Lengths of the box with the second moments, along the axes, of the cell
+    /// with the edges A: the lengths of the rows of A, m.
     template <int dim, typename Number>
     TALUS_ALWAYS_INLINE std::array<Number, dim>
-                        lengths_of_rows(const Matrix<dim, Number>     &F,
-                                        const std::array<Number, dim> &L)
+                        lengths_of_rows(const Matrix<dim, Number> &A)
     {
-      std::array<Number, dim> stretch;
+      std::array<Number, dim> length;
       for (unsigned int d = 0; d < dim; ++d)
         {
           Number square(0.);
           for (unsigned int k = 0; k < dim; ++k)
-            square += (F[d][k] * L[k]) * (F[d][k] * L[k]);
-          stretch[d] = sqrt(square) / L[d];
+            square += A[d][k] * A[d][k];
+          length[d] = sqrt(square);
         }
-      return stretch;
+      return length;
     }
 
 
 
-    /// Diagonal of V of F = V R in 2-D: V = (B + J I)/sqrt(tr B + 2 J) with
-    /// B = F F^T, @cite hoger1984. No eigenvectors, hence no special case for
-    /// equal eigenvalues.
-    template <typename Number>
-    TALUS_ALWAYS_INLINE std::array<Number, 2>
-                        left_stretch(const Matrix<2, Number> &F)
+    /// Lengths of the smallest box around the cell with the edges A, m.
+    template <int dim, typename Number>
+    TALUS_ALWAYS_INLINE std::array<Number, dim>
+                        extents(const Matrix<dim, Number> &A)
     {
-      const Number J     = determinant(F);
-      const Number B_00  = F[0][0] * F[0][0] + F[0][1] * F[0][1];
-      const Number B_11  = F[1][0] * F[1][0] + F[1][1] * F[1][1];
-      const Number scale = 1. / sqrt(B_00 + B_11 + 2. * J);
-      return {{(B_00 + J) * scale, (B_11 + J) * scale}};
+      std::array<Number, dim> length;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          length[d] = Number(0.);
+          for (unsigned int k = 0; k < dim; ++k)
+            length[d] += max(A[d][k], -A[d][k]);
+        }
+      return length;
     }
 
 
 
-    /// Set the stretch of the points [begin, end) to stretch_of(F, L).
-    template <int dim, typename StretchOf>
+    /// V_dd L of square points with F = V R and edges A = F L, m. In 2-D
+    /// V L = (B + det A I)/sqrt(tr B + 2 det A) with B = A A^T,
+    /// @cite hoger1984. No eigenvectors, hence no special case for equal
+    /// eigenvalues. In 3-D the second moments are used: the paper, whose boxes
+    /// follow V, is about plane strain.
+    template <int dim, typename Number>
+    TALUS_ALWAYS_INLINE std::array<Number, dim>
+                        left_stretch(const Matrix<dim, Number> &A)
+    {
+      auto length = lengths_of_rows<dim>(A);
+      if constexpr (dim == 2)
+        {
+          const Number volume = determinant(A);
+          const Number B_00 = length[0] * length[0], B_11 = length[1] * length[1];
+          const Number scale = 1. / sqrt(B_00 + B_11 + 2. * volume);
+          length             = {{(B_00 + volume) * scale, (B_11 + volume) * scale}};
+        }
+      return length;
+    }
+
+
+
+    /// Set the lengths of the boxes of the points [begin, end) to
+    /// lengths_of(A).
+    template <int dim, typename LengthsOf>
     TALUS_ALWAYS_INLINE void
-    set_stretch(const PointsView<dim> &points,
+    set_lengths(const PointsView<dim> &points,
                 const unsigned int     begin,
                 const unsigned int     end,
-                const StretchOf       &stretch_of)
+                const LengthsOf       &lengths_of)
     {
       for_each_simd(
         begin, end, [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
-          using Number = decltype(number);
-          std::array<Number, dim> L;
+          const auto length = lengths_of(
+            load_matrix<dim, decltype(number)>(points, points.edges, p));
           for (unsigned int d = 0; d < dim; ++d)
-            L[d] = load<Number>(points.data(points.reference_length, d) + p);
-          const auto stretch = stretch_of(
-            load_matrix<dim, Number>(points, points.deformation_gradient, p),
-            L);
-          for (unsigned int d = 0; d < dim; ++d)
-            store(points.data(points.stretch, d) + p, stretch[d]);
+            store(points.data(points.box_length, d) + p, length[d]);
         });
     }
   } // namespace
 
 
 
-  // The paper, whose boxes follow V, is about plane strain.
   template <int dim>
   void
-  update_stretch(Points<dim>       &points,
-                 const unsigned int begin,
-                 const unsigned int end,
-                 const BoxRule      rule)
+  update_box_lengths(Points<dim>       &points,
+                     const unsigned int begin,
+                     const unsigned int end,
+                     const BoxRule      rule)
   {
-    if (rule == BoxRule::fixed || rule == BoxRule::convected_domain)
-      return;
-    if constexpr (dim == 2)
-      if (rule == BoxRule::left_stretch)
-        {
-          set_stretch<dim>(points.view(),
-                           begin,
-                           end,
-                           [](const auto &F, const auto &)
-                             TALUS_INLINE_LAMBDA { return left_stretch(F); });
-          return;
-        }
-    set_stretch<dim>(points.view(),
-                     begin,
-                     end,
-                     [](const auto &F, const auto &L) TALUS_INLINE_LAMBDA {
-                       return lengths_of_rows<dim>(F, L);
-                     });
+    const auto columns = points.view();
+    switch (rule)
+      {
+        case BoxRule::fixed:
+          break;
+        case BoxRule::left_stretch:
+          set_lengths<dim>(
+            columns, begin, end, [](const auto &A) TALUS_INLINE_LAMBDA {
+              return left_stretch<dim>(A);
+            });
+          break;
+        case BoxRule::second_moments:
+          set_lengths<dim>(
+            columns, begin, end, [](const auto &A) TALUS_INLINE_LAMBDA {
+              return lengths_of_rows<dim>(A);
+            });
+          break;
+        case BoxRule::convected_domain:
+          set_lengths<dim>(
+            columns, begin, end, [](const auto &A) TALUS_INLINE_LAMBDA {
+              return extents<dim>(A);
+            });
+      }
   }
 
 
 
   // The initial deformation of a body does not count as deformation since the
-  // creation of its points: the splitter compares with the initial stretch.
+  // creation of its points: the splitter compares with the initial lengths.
   template <int dim>
   void
-  initialize_stretch(Points<dim>       &points,
-                     const unsigned int begin,
-                     const unsigned int end,
-                     const BoxRule      rule)
+  begin_stretch(Points<dim>       &points,
+                const unsigned int begin,
+                const unsigned int end,
+                const BoxRule      rule)
   {
-    update_stretch(points, begin, end, rule);
-    const PointsView<dim, const double> columns =
-      static_cast<const Points<dim> &>(points).view();
+    update_box_lengths(points, begin, end, rule);
+    const PointsView<dim, const double> columns = std::as_const(points).view();
     for (unsigned int p = begin; p < end; ++p)
       for (unsigned int d = 0; d < dim; ++d)
-        points.data(points.creation_stretch, d)[p] =
-          stretch_to_split<double>(columns, rule, d, p);
+        points.data(points.length_at_creation, d)[p] =
+          length_to_split<double>(columns, rule, d, p);
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  reference_lengths(const Points<dim> &points, const unsigned int p)
+  {
+    auto   length = load_vector(points, points.length_at_creation, p);
+    double volume = 1.;
+    for (unsigned int d = 0; d < dim; ++d)
+      volume *= length[d];
+    return std::pow(points.data(points.reference_volume)[p] / volume,
+                    1. / dim) *
+           length;
   }
 
 
@@ -125,27 +161,9 @@ namespace talus
                const unsigned int k,
                const unsigned int p)
   {
-    const double   L = points.data(points.reference_length, k)[p];
     Tensor<1, dim> edge;
     for (unsigned int i = 0; i < dim; ++i)
-      edge[i] = points.data(points.deformation_gradient, dim * i + k)[p] * L;
-    return edge;
-  }
-
-
-
-  template <int dim>
-  Tensor<1, dim>
-  edge_of_box(const Points<dim> &points,
-              const BoxRule      rule,
-              const unsigned int d,
-              const unsigned int p)
-  {
-    if (rule == BoxRule::convected_domain)
-      return edge_of_cell(points, d, p);
-    Tensor<1, dim> edge;
-    edge[d] = points.data(points.reference_length, d)[p] *
-              points.data(points.stretch, d)[p];
+      edge[i] = points.data(points.edges, dim * i + k)[p];
     return edge;
   }
 
@@ -158,8 +176,11 @@ namespace talus
                 const unsigned int d,
                 const unsigned int p)
   {
-    return rule == BoxRule::left_stretch ? edge_of_box(points, rule, d, p)
-                                         : edge_of_cell(points, d, p);
+    if (rule != BoxRule::left_stretch)
+      return edge_of_cell(points, d, p);
+    Tensor<1, dim> edge;
+    edge[d] = points.data(points.box_length, d)[p];
+    return edge;
   }
 
 
@@ -178,7 +199,7 @@ namespace talus
       unsigned int n_clipped = 0;
       for (unsigned int d = 0; d < dim; ++d)
         {
-          const double half = 0.5 * edge_of_box(points, shape.rule, d, p)[d];
+          const double half = 0.5 * points.data(points.box_length, d)[p];
           if (half < shape.min_half * size || half > shape.max_half * size)
             ++n_clipped;
         }
@@ -210,16 +231,16 @@ namespace talus
 
 
 
-  template decltype(update_stretch<2>)      update_stretch<2>;
-  template decltype(update_stretch<3>)      update_stretch<3>;
-  template decltype(initialize_stretch<2>)  initialize_stretch<2>;
-  template decltype(initialize_stretch<3>)  initialize_stretch<3>;
+  template decltype(update_box_lengths<2>)  update_box_lengths<2>;
+  template decltype(update_box_lengths<3>)  update_box_lengths<3>;
+  template decltype(begin_stretch<2>)       begin_stretch<2>;
+  template decltype(begin_stretch<3>)       begin_stretch<3>;
+  template decltype(reference_lengths<2>)   reference_lengths<2>;
+  template decltype(reference_lengths<3>)   reference_lengths<3>;
   template decltype(edge_of_cell<2>)        edge_of_cell<2>;
   template decltype(edge_of_cell<3>)        edge_of_cell<3>;
   template decltype(edge_to_split<2>)       edge_to_split<2>;
   template decltype(edge_to_split<3>)       edge_to_split<3>;
-  template decltype(edge_of_box<2>)         edge_of_box<2>;
-  template decltype(edge_of_box<3>)         edge_of_box<3>;
   template decltype(count_clipped_boxes<2>) count_clipped_boxes<2>;
   template decltype(count_clipped_boxes<3>) count_clipped_boxes<3>;
 } // namespace talus

@@ -32,8 +32,8 @@ namespace talus
     // splitter has a limit and could not halve the edge.
     constexpr double max_growth = 4.6;
 
-    // Stretch at which shear that is counted must end.
-    constexpr double max_stretch = 1000.;
+    // Growth at which shear that is counted must end.
+    constexpr double max_counted_growth = 1000.;
 
     /// Integer combination v = sum_j shift[j] a_j of the edges other than k.
     template <int dim>
@@ -96,20 +96,16 @@ namespace talus
       {
         for (unsigned int k = 0; k < dim; ++k)
           {
-            const Number L =
-              load<Number>(points.data(points.reference_length, k) + p);
             for (unsigned int i = 0; i < dim; ++i)
               edge[k][i] =
-                L *
-                load<Number>(
-                  points.data(points.deformation_gradient, dim * i + k) + p);
+                load<Number>(points.data(points.edges, dim * i + k) + p);
             square[k] = product<dim, Number>(edge[k], edge[k]);
-            const Number at_creation =
-              L * load<Number>(points.data(points.creation_stretch, k) + p);
+            const auto at_creation =
+              load<Number>(points.data(points.length_at_creation, k) + p);
             const Number lower =
-              counts_shear ? max_stretch * L : min_growth * at_creation;
+              (counts_shear ? max_counted_growth : min_growth) * at_creation;
             const Number upper =
-              counts_shear ? lower : max_growth * at_creation;
+              (counts_shear ? max_counted_growth : max_growth) * at_creation;
             may_shorten[k]  = lower * lower;
             must_shorten[k] = upper * upper;
           }
@@ -213,8 +209,7 @@ namespace talus
       Edges<dim, double> edges(points, p, counts_shear);
       for (unsigned int k; (k = shorten_one(edges)) != dim;)
         for (unsigned int i = 0; i < dim; ++i)
-          points.data(points.deformation_gradient, dim * i + k)[p] =
-            edges.edge[k][i] / points.data(points.reference_length, k)[p];
+          points.data(points.edges, dim * i + k)[p] = edges.edge[k][i];
     }
   } // namespace
 

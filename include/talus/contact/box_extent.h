@@ -3,7 +3,6 @@
 #define talus_contact_box_extent_h
 
 #include <talus/points/points.h>
-#include <talus/transfer/box_rule.h>
 
 #include <cmath>
 
@@ -14,18 +13,9 @@ namespace talus
   /// axis-parallel bounding box.
   template <int dim>
   dealii::Tensor<1, dim>
-  half_lengths_of_box(const Points<dim> &points,
-                      const BoxShape    &shape,
-                      const unsigned int p)
+  half_lengths_of_box(const Points<dim> &points, const unsigned int p)
   {
-    dealii::Tensor<1, dim> half;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        const auto edge = edge_of_box(points, shape.rule, d, p);
-        for (unsigned int i = 0; i < dim; ++i)
-          half[i] += 0.5 * std::abs(edge[i]);
-      }
-    return half;
+    return 0.5 * load_vector(points, points.box_length, p);
   }
 
 

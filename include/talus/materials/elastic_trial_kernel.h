@@ -48,15 +48,14 @@ namespace talus
 
   /// Volume times deviator, mean of start and end of the step, J: the
   /// contraction with a deviatoric strain of the step, plastic or total, gives
-  /// the work. @p V0 is the reference volume, m^dim.
+  /// the work.
   template <int dim, typename Number>
   TALUS_ALWAYS_INLINE Stress<dim, Number>
                       deviatoric_force(const Motion<dim, Number>     &motion,
-                                       const Number                   V0,
                                        const StressStep<dim, Number> &stress)
   {
-    const Number        before = 0.5 * V0 * motion.J_before;
-    const Number        after  = 0.5 * V0 * motion.J_after;
+    const Number        before = 0.5 * motion.volume_before;
+    const Number        after  = 0.5 * motion.volume_after;
     Stress<dim, Number> force;
     for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
       force[c] =
@@ -71,13 +70,12 @@ namespace talus
   template <int dim, typename Number>
   TALUS_ALWAYS_INLINE Number
   volumetric_work(const Motion<dim, Number>     &motion,
-                  const Number                  &reference_volume,
                   const StressStep<dim, Number> &stress,
                   const Number                  &volumetric_strain)
   {
-    return 0.5 * reference_volume * volumetric_strain *
-           (motion.J_before * stress.mean_before +
-            motion.J_after * stress.mean_after);
+    return 0.5 * volumetric_strain *
+           (motion.volume_before * stress.mean_before +
+            motion.volume_after * stress.mean_after);
   }
 
 
@@ -89,15 +87,11 @@ namespace talus
   template <int dim, typename Number>
   TALUS_ALWAYS_INLINE Number
   work_of_step(const Motion<dim, Number>          &motion,
-               const Number                       &reference_volume,
                const StrainIncrement<dim, Number> &strain,
                const StressStep<dim, Number>      &stress,
                const Stress<dim, Number>          &force)
   {
-    return volumetric_work<dim, Number>(motion,
-                                        reference_volume,
-                                        stress,
-                                        strain.volumetric) +
+    return volumetric_work<dim, Number>(motion, stress, strain.volumetric) +
            contract(force, strain.deviatoric);
   }
 

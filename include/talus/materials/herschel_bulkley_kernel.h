@@ -174,7 +174,7 @@ namespace talus
                                   Flow<Number>{trial.moduli.mu * plastic_shear /
                                                  trial.shear_stress,
                                                plastic_shear});
-    return all(trial.motion.J_after > 0.) && all(plastic_shear >= 0.);
+    return all(trial.motion.volume_after > 0.) && all(plastic_shear >= 0.);
   }
 
 

@@ -56,19 +56,20 @@ namespace talus
 
 
   /// Advance point(s) @p p of a hyperelastic law by one step of @p dt seconds,
-  /// with @p energy as in HyperelasticLaw. Returns false if a point is
-  /// inverted.
+  /// with @p energy as in HyperelasticLaw. @p deformation is the column of F.
+  /// Returns false if a point is inverted.
   template <int dim, typename Number, typename StrainEnergy>
   TALUS_ALWAYS_INLINE bool
   update_point_by_state(const PointsView<dim>    &points,
                         const WorkspaceView<dim> &workspace,
+                        const unsigned int        deformation,
                         const unsigned int        p,
                         const double              dt,
                         const StrainEnergy       &energy)
   {
-    const auto motion =
-      advance_deformation<dim, Number>(points, workspace, p, dt);
-    const auto state = deformation_state<dim, Number>(motion.F);
+    const auto motion = advance_edges<dim, Number>(points, workspace, p, dt);
+    const auto state  = deformation_state<dim, Number>(
+      advance_tensor<dim>(points, deformation, p, motion.increment));
     const StateResponse<dim, Number> response = energy.response(state);
 
     const Number        scale = 1. / (1. + state.J_minus_1);
@@ -78,7 +79,7 @@ namespace talus
     store_stress<dim, Number>(points, p, sigma);
     const auto V0 = load<Number>(points.data(points.reference_volume) + p);
     store<Number>(points.data(points.elastic_energy) + p, V0 * response.energy);
-    return all(motion.J_after > 0.);
+    return all(motion.volume_after > 0.);
   }
 
 

@@ -27,6 +27,14 @@ namespace talus
     using ElasticLaw<dim>::ElasticLaw;
 
     void
+    add_columns(Points<dim> &points) override;
+
+    void
+    initialize(Points<dim> &points,
+               unsigned int begin,
+               unsigned int end) const override;
+
+    void
     update_stress(Points<dim>              &points,
                   const StepWorkspace<dim> &workspace,
                   unsigned int              begin,
@@ -63,6 +71,9 @@ namespace talus
   private:
     virtual StrainEnergy
     strain_energy() const = 0;
+
+    /// Column of the deformation gradient F.
+    unsigned int deformation_ = dealii::numbers::invalid_unsigned_int;
   };
 } // namespace talus
 

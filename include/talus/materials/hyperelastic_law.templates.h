@@ -11,12 +11,13 @@
 namespace talus
 {
   /// Implement MaterialModel::linearize() for hyperelastic laws: @p response
-  /// maps a DeformationState to a StateResponse. Returns false if a point is
-  /// inverted.
+  /// maps a DeformationState to a StateResponse; @p deformation is the column
+  /// of F. Returns false if a point is inverted.
   template <int dim, typename Response>
   inline bool
   linearize_by_state(const Points<dim>        &points,
                      const StepWorkspace<dim> &workspace,
+                     const unsigned int        deformation,
                      const unsigned int        begin,
                      const unsigned int        end,
                      StressTangent<dim>       *linearization,
@@ -30,7 +31,7 @@ namespace talus
         if (!(determinant_increment(H).value > -1.))
           return false;
         const auto before =
-          load_matrix<dim, double>(points, points.deformation_gradient, p);
+          load_matrix<dim, double>(points, deformation, p);
         Matrix<dim, Number> F;
         for (unsigned int i = 0; i < dim; ++i)
           std::copy(before[i].begin(), before[i].end(), F[i].begin());
@@ -45,6 +46,32 @@ namespace talus
                       linearization[p - begin]);
       }
     return true;
+  }
+
+
+
+  template <int dim, typename StrainEnergy>
+  void
+  HyperelasticLaw<dim, StrainEnergy>::add_columns(Points<dim> &points)
+  {
+    deformation_ = points.add_column("deformation gradient",
+                                     "-",
+                                     ColumnKind::deformation,
+                                     Inheritance::copied);
+  }
+
+
+
+  template <int dim, typename StrainEnergy>
+  void
+  HyperelasticLaw<dim, StrainEnergy>::initialize(Points<dim>       &points,
+                                                 const unsigned int begin,
+                                                 const unsigned int end) const
+  {
+    MaterialModel<dim>::initialize(points, begin, end);
+    const auto columns = points.view();
+    for (unsigned int p = begin; p < end; ++p)
+      store_matrix(columns, deformation_, p, identity<dim, double>());
   }
 
 
@@ -66,7 +93,7 @@ namespace talus
                   end,
                   [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
                     is_sound &= update_point_by_state<dim, decltype(number)>(
-                      columns, work, p, dt, energy);
+                      columns, work, deformation_, p, dt, energy);
                   });
     if (!is_sound)
       throw_inverted_point(
@@ -89,6 +116,7 @@ namespace talus
     (void)measure;
     return linearize_by_state(points,
                               workspace,
+                              deformation_,
                               begin,
                               end,
                               linearization,
@@ -128,7 +156,7 @@ namespace talus
       begin, end, [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
         using Number     = decltype(number);
         const auto state = deformation_state<dim, Number>(
-          load_matrix<dim, Number>(columns, columns.deformation_gradient, p));
+          load_matrix<dim, Number>(columns, deformation_, p));
         const Number JM = energy.largest_modulus(state);
         store<Number>(modulus + (p - begin), JM / (1. + state.J_minus_1));
       });

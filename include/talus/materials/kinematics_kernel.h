@@ -14,42 +14,53 @@ namespace talus
     /// H = dt L': gradient of the displacement of the step with respect to the
     /// position at its start.
     Matrix<dim, Number> increment;
-    /// Deformation gradient at the end of the step.
-    Matrix<dim, Number> F;
-    /// det F at the start and at the end of the step.
-    Number J_before, J_after;
+    /// Volume at the start and at the end of the step, m^dim.
+    Number volume_before, volume_after;
     /// det(I + H) - 1.
     Number dilatation;
   };
 
 
 
-  /// Advance the deformation gradient of point(s) @p p over @p dt seconds,
-  /// F <- (I + dt L') F, and store it. Exact for the motion in the step: each
-  /// point moves on a straight line.
+  /// Advance the tensor T in column @p column of point(s) @p p by a step with
+  /// the gradient @p increment of the displacement, T <- (I + H) T. Exact for
+  /// lines of material in the step: each point moves on a straight line.
+  /// Returns the new tensor.
+  template <int dim, typename Number>
+  TALUS_ALWAYS_INLINE Matrix<dim, Number>
+                      advance_tensor(const PointsView<dim>     &points,
+                                     const unsigned int         column,
+                                     const unsigned int         p,
+                                     const Matrix<dim, Number> &increment)
+  {
+    const auto before = load_matrix<dim, Number>(points, column, p);
+    auto       after  = product(increment, before);
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        after[i][j] += before[i][j];
+    store_matrix(points, column, p, after);
+    return after;
+  }
+
+
+
+  /// Advance the edges of point(s) @p p over @p dt seconds with the velocity
+  /// gradient L' in the workspace.
   template <int dim, typename Number>
   TALUS_ALWAYS_INLINE Motion<dim, Number>
-                      advance_deformation(const PointsView<dim>    &points,
-                                          const WorkspaceView<dim> &workspace,
-                                          const unsigned int        p,
-                                          const double              dt)
+                      advance_edges(const PointsView<dim>    &points,
+                                    const WorkspaceView<dim> &workspace,
+                                    const unsigned int        p,
+                                    const double              dt)
   {
     Motion<dim, Number> motion;
     motion.increment = load_velocity_gradient<dim, Number>(workspace, p);
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
         motion.increment[i][j] *= dt;
-
-    const auto F_before =
-      load_matrix<dim, Number>(points, points.deformation_gradient, p);
-    motion.F = product(motion.increment, F_before);
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-        motion.F[i][j] += F_before[i][j];
-    store_matrix(points, points.deformation_gradient, p, motion.F);
-
-    motion.J_before   = determinant(F_before);
-    motion.J_after    = determinant(motion.F);
+    motion.volume_before = volume_of_points<dim, Number>(points, p);
+    motion.volume_after  = determinant(
+      advance_tensor<dim>(points, points.edges, p, motion.increment));
     motion.dilatation = determinant_increment(motion.increment);
     return motion;
   }

@@ -63,7 +63,8 @@ namespace talus
     {}
 
     /// Set the columns of new points that describe the reference state: the
-    /// strength factor, if used, to 1. Overrides must call the base version.
+    /// strength factor, if used, to 1, and the deformation gradient, if the law
+    /// needs it, to I. Overrides must call the base version.
     virtual void
     initialize(Points<dim> &points, unsigned int begin, unsigned int end) const;
 
@@ -159,11 +160,10 @@ namespace talus
       strength_factor_ = column;
     }
 
-    /// Advance deformation gradient, stress, elastic energy, plastic work and
-    /// internal variables of the points [begin, end) over one step of @p dt
-    /// seconds with the velocity gradient in the workspace. Throws ExcPoint if
-    /// a point is inverted. With @p dt = 0 and any finite velocity gradient, a
-    /// hyperelastic law sets stress and energy from the deformation gradient.
+    /// Advance edges, stress, elastic energy, plastic work and internal
+    /// variables of the points [begin, end) over one step of @p dt seconds with
+    /// the velocity gradient in the workspace. Throws ExcPoint if a point is
+    /// inverted.
     virtual void
     update_stress(Points<dim>              &points,
                   const StepWorkspace<dim> &workspace,
@@ -187,8 +187,7 @@ namespace talus
               StressTangent<dim>       *linearization) const = 0;
 
     /// Advance the points [begin, end) to the end of the load step, as
-    /// update_stress(); at small strain the deformation gradient does not
-    /// change.
+    /// update_stress(); at small strain the edges do not change.
     virtual void
     commit_load_step(Points<dim>              &points,
                      const StepWorkspace<dim> &workspace,
@@ -222,8 +221,9 @@ namespace talus
     double
     wave_speed(const Points<dim> &points, unsigned int p) const;
 
-    /// Return whether the stress is a function of the deformation gradient, so
-    /// that no initial stress can be prescribed.
+    /// Return whether the stress is a function of the deformation gradient,
+    /// which is a column of the law, so that no initial stress can be
+    /// prescribed.
     virtual bool
     is_hyperelastic() const = 0;
 

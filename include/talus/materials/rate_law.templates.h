@@ -272,13 +272,12 @@ namespace talus
         {
           Motion<dim, double> motion;
           if (measure == StrainMeasure::large)
-            motion = advance_deformation<dim, double>(columns, work, p, 1.);
+            motion = advance_edges<dim, double>(columns, work, p, 1.);
           else
             {
               motion.increment = load_velocity_gradient<dim, double>(work, p);
-              motion.J_before  = motion.J_after =
-                determinant(load_matrix<dim, double>(
-                  points, points.deformation_gradient, p));
+              motion.volume_before = motion.volume_after =
+                volume_of_points<dim, double>(points, p);
             }
           const auto strain = strain_of_load_step(motion.increment, measure);
           const auto factor_here = factor(p, double());

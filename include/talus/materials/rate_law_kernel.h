@@ -119,8 +119,7 @@ namespace talus
 
 
 
-  /// Advance the deformation gradient of point(s) @p p and compute the trial
-  /// stress. @p factor is the strength factor of the point(s).
+  /// Advance the edges of point(s) @p p and compute the trial stress. @p factor is the strength factor of the point(s).
   template <int dim, typename Number, typename FlowRule, typename Factor>
   TALUS_ALWAYS_INLINE auto
   rate_law_trial(const RateLawStep<dim, FlowRule> &step,
@@ -130,7 +129,7 @@ namespace talus
     RateLawTrial<dim, Number, decltype(modulus_of_point(double(), factor))>
       trial;
     trial.motion =
-      advance_deformation<dim, Number>(step.points, step.workspace, p, step.dt);
+      advance_edges<dim, Number>(step.points, step.workspace, p, step.dt);
     trial.strain = strain_increment(trial.motion);
     trial.moduli = moduli_of_point(step.moduli, factor);
     trial.stress =
@@ -153,12 +152,11 @@ namespace talus
     const auto &[motion, strain, moduli, stress] = trial;
     store_turned_stress<dim, Number>(points, p, strain, stress);
 
-    const auto    V0 = load<Number>(points.data(points.reference_volume) + p);
-    const auto    force  = deviatoric_force<dim, Number>(motion, V0, stress);
+    const auto    force  = deviatoric_force<dim, Number>(motion, stress);
     double *const energy = points.data(points.elastic_energy) + p;
     store(energy,
           load<Number>(energy) +
-            work_of_step<dim, Number>(motion, V0, strain, stress, force));
+            work_of_step<dim, Number>(motion, strain, stress, force));
   }
 
 
@@ -193,14 +191,13 @@ namespace talus
     const auto stress = returned(trial_stress, moduli.bulk, flow);
     store_turned_stress<dim, Number>(points, p, strain, stress);
 
-    const auto V0    = load<Number>(points.data(points.reference_volume) + p);
-    const auto force = deviatoric_force<dim, Number>(motion, V0, stress);
+    const auto force = deviatoric_force<dim, Number>(motion, stress);
     Number     plastic_work = flow.removed * (0.5 / moduli.mu) *
                           contract(force, trial_stress.deviator_after);
     if constexpr (std::is_same_v<Number, Dilation>)
-      plastic_work += volumetric_work(motion, V0, stress, flow.dilation);
+      plastic_work += volumetric_work(motion, stress, flow.dilation);
     const Number work =
-      work_of_step<dim, Number>(motion, V0, strain, stress, force);
+      work_of_step<dim, Number>(motion, strain, stress, force);
     double *const elastic = points.data(points.elastic_energy) + p;
     double *const plastic = points.data(points.plastic_work) + p;
     store(elastic, load<Number>(elastic) + (work - plastic_work));
@@ -255,7 +252,7 @@ namespace talus
           if (!all(flow.increment >= 0.))
             return false;
       }
-    return all(trial.motion.J_after > 0.);
+    return all(trial.motion.volume_after > 0.);
   }
 } // namespace talus
 

@@ -5,8 +5,8 @@
 #include <talus/state/state.h>
 #include <talus/transfer/box_rule.h>
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
 namespace talus
@@ -22,43 +22,33 @@ namespace talus
 
 
 
-  /// Return the edge vectors of the box of point @p p, m: parallel to the axes,
-  /// or oblique for a convected domain. A box longer than @p longest, m, along
-  /// an axis is shortened to @p longest, because F grows without bound in a
-  /// shear layer. A box too thin for the weights is not thickened, so that
-  /// boxes cover the soil once.
+  /// Extent of the box of point @p p along each axis, m, at most @p longest; for
+  /// a convected domain from the lowest to the highest corner. Boxes are longer
+  /// only where a limit keeps points from being split. A box too thin for the
+  /// weights is not thickened, so that boxes cover the soil once.
   template <int dim>
-  inline std::array<dealii::Tensor<1, dim>, dim>
-  box_edges(const State<dim> &state, const unsigned int p, const double longest)
+  inline dealii::Tensor<1, dim>
+  box_lengths(const Points<dim> &points,
+              const unsigned int p,
+              const double       longest)
   {
-    const Points<dim>                      &points = state.points;
-    const BoxShape                         &shape  = state.constants.box_shape;
-    std::array<dealii::Tensor<1, dim>, dim> edges;
+    auto lengths = load_vector(points, points.box_length, p);
     for (unsigned int d = 0; d < dim; ++d)
-      edges[d] = edge_of_box(points, shape.rule, d, p);
-    for (unsigned int i = 0; i < dim; ++i)
-      {
-        double length = 0;
-        for (const auto &edge : edges)
-          length += std::abs(edge[i]);
-        if (length > longest)
-          for (auto &edge : edges)
-            edge[i] *= longest / length;
-      }
-    return edges;
+      lengths[d] = std::min(lengths[d], longest);
+    return lengths;
   }
 
 
 
-  /// Return the edge vectors of the box of point @p p, m, shortened to
-  /// longest_box(). The box of a point without a cell is not shortened.
+  /// As above, with the length that the weights allow. The box of a point
+  /// without a cell is not shortened.
   template <int dim>
-  inline std::array<dealii::Tensor<1, dim>, dim>
-  box_edges(const State<dim> &state, const unsigned int p)
+  inline dealii::Tensor<1, dim>
+  box_lengths(const State<dim> &state, const unsigned int p)
   {
     const Points<dim> &points = state.points;
-    return box_edges(
-      state,
+    return box_lengths(
+      points,
       p,
       p >= points.n_sorted()
         ? std::numeric_limits<double>::infinity()
@@ -67,27 +57,32 @@ namespace talus
 
 
 
-  /// Extent along each axis, m, of a box with the given edges; for a convected
-  /// domain from the lowest to the highest corner.
+  /// Edges of the domain of point @p p for pictures, m: of the cell of the
+  /// point, which tiles the soil with its neighbours, or of the box where boxes
+  /// count shear or keep their lengths. Scaled along each axis to
+  /// box_lengths().
   template <int dim>
-  inline dealii::Tensor<1, dim>
-  lengths_of(const std::array<dealii::Tensor<1, dim>, dim> &edges)
+  inline std::array<dealii::Tensor<1, dim>, dim>
+  drawn_edges(const State<dim> &state, const unsigned int p)
   {
-    dealii::Tensor<1, dim> lengths;
-    for (const auto &edge : edges)
-      for (unsigned int d = 0; d < dim; ++d)
-        lengths[d] += std::abs(edge[d]);
-    return lengths;
-  }
-
-
-
-  /// Extent of the box of point @p p along each axis, m; see box_edges().
-  template <int dim>
-  inline dealii::Tensor<1, dim>
-  box_lengths(const State<dim> &state, const unsigned int p)
-  {
-    return lengths_of<dim>(box_edges(state, p));
+    const BoxRule rule     = state.constants.box_shape.rule;
+    const bool    is_box   = rule == BoxRule::left_stretch ||
+                          rule == BoxRule::fixed;
+    const auto    longest  = box_lengths(state, p);
+    const auto    unbroken = load_vector(state.points, state.points.box_length, p);
+    std::array<dealii::Tensor<1, dim>, dim> edges;
+    for (unsigned int k = 0; k < dim; ++k)
+      {
+        if (is_box)
+          edges[k][k] = longest[k];
+        else
+          {
+            edges[k] = edge_of_cell(state.points, k, p);
+            for (unsigned int d = 0; d < dim; ++d)
+              edges[k][d] *= longest[d] / unbroken[d];
+          }
+      }
+    return edges;
   }
 } // namespace talus
 

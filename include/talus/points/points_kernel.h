@@ -80,14 +80,12 @@ namespace talus
 
 
 
-  /// Volumes of point(s) @p p, m^dim.
+  /// Volumes of point(s) @p p, m^dim: of the cells of their edges.
   template <int dim, typename Number, typename Columns>
   TALUS_ALWAYS_INLINE Number
   volume_of_points(const Columns &points, const unsigned int p)
   {
-    return load<Number>(points.data(points.reference_volume) + p) *
-           determinant(
-             load_matrix<dim, Number>(points, points.deformation_gradient, p));
+    return determinant(load_matrix<dim, Number>(points, points.edges, p));
   }
 } // namespace talus
 

@@ -23,23 +23,21 @@ namespace talus
     static constexpr unsigned int position = 0; ///< dim, m
     static constexpr unsigned int velocity =
       dim; ///< dim, m/s, at the half step
-    static constexpr unsigned int deformation_gradient =
-      velocity + dim; ///< dim*dim
+    /// dim*dim, m: column k of this tensor A is edge k of the point's cell.
+    static constexpr unsigned int edges = velocity + dim;
     static constexpr unsigned int stress =
-      deformation_gradient + dim * dim; ///< Cauchy, n_stress_components, Pa
+      edges + dim * dim; ///< Cauchy, n_stress_components, Pa
     static constexpr unsigned int mass =
       stress + n_stress_components<dim>;                       ///< 1, kg
     static constexpr unsigned int reference_volume = mass + 1; ///< 1, m^dim
-    static constexpr unsigned int reference_length =
-      reference_volume + 1; ///< dim, m, of the undeformed box
-    static constexpr unsigned int stretch =
-      reference_length + dim; ///< dim, of the box along the axes
-    static constexpr unsigned int elastic_energy = stretch + dim;      ///< 1, J
+    static constexpr unsigned int box_length =
+      reference_volume + 1; ///< dim, m, along the axes
+    static constexpr unsigned int elastic_energy = box_length + dim;   ///< 1, J
     static constexpr unsigned int plastic_work   = elastic_energy + 1; ///< 1, J
-    static constexpr unsigned int creation_stretch =
-      plastic_work + 1; ///< dim, stretch when created
+    static constexpr unsigned int length_at_creation =
+      plastic_work + 1; ///< dim, m, of each edge when the point was made
     static constexpr unsigned int generation =
-      creation_stretch + dim; ///< 1, number of splits in its history
+      length_at_creation + dim; ///< 1, number of splits in its history
     static constexpr unsigned int initial_position = generation + 1; ///< dim, m
     static constexpr unsigned int id   = initial_position + dim; ///< 1, unique
     static constexpr unsigned int body = id + 1; ///< 1, index of the body

@@ -49,7 +49,7 @@ namespace talus
     }
 
     /// Move the points [begin, end) by the displacement at t = 0, and set
-    /// deformation gradient, stretch of the boxes and stress. The gradient of
+    /// edges, boxes and stress. The gradient of
     /// the displacement is taken by differences of sixth order, with errors of
     /// about 1e-12. Throws ExcUser if a point is turned inside out.
     void
@@ -71,10 +71,11 @@ namespace talus
     std::string
     path(const std::string &entry) const;
     void
-    displace(Points<dim>     &points,
-             unsigned int     begin,
-             unsigned int     end,
-             const Constants &constants) const;
+    displace(Points<dim>        &points,
+             StepWorkspace<dim> &workspace,
+             unsigned int        begin,
+             unsigned int        end,
+             const Constants    &constants) const;
     void
     set_stress(Points<dim>     &points,
                unsigned int     begin,

@@ -90,8 +90,6 @@ namespace talus
     void
     grid_to_points();
     void
-    reduce_edges(const Batch &batch);
-    void
     split();
 
     State<dim>           &state_;

@@ -9,39 +9,36 @@
 
 namespace talus
 {
-  /// Update the stretch [-] of the points [begin, end) from deformation
-  /// gradient and reference lengths. Boxes with the rule `fixed` have no
-  /// stretch.
+  /// Update the lengths of the boxes of the points [begin, end), m, from the
+  /// edges of their cells. Boxes with the rule `fixed` keep their lengths.
   template <int dim>
   void
-  update_stretch(Points<dim> &points,
-                 unsigned int begin,
-                 unsigned int end,
-                 BoxRule      rule);
-
-  /// Set the stretch and the stretch at creation [-] of the points [begin, end)
-  /// from their deformation gradient.
-  template <int dim>
-  void
-  initialize_stretch(Points<dim> &points,
+  update_box_lengths(Points<dim> &points,
                      unsigned int begin,
                      unsigned int end,
                      BoxRule      rule);
 
-  /// Return edge @p k of the cell of point @p p, m: column k of the deformation
-  /// gradient times reference length k.
+  /// Set the lengths of the boxes and the lengths at creation, m, of the points
+  /// [begin, end) from the edges of their cells: the splitter measures stretch
+  /// from now on.
+  template <int dim>
+  void
+  begin_stretch(Points<dim> &points,
+                unsigned int begin,
+                unsigned int end,
+                BoxRule      rule);
+
+  /// Return the lengths of the edges of point @p p before any deformation, m:
+  /// the lengths at creation, scaled to the reference volume. Exact unless the
+  /// point comes from soil that was deformed when it was split or merged.
+  template <int dim>
+  dealii::Tensor<1, dim>
+  reference_lengths(const Points<dim> &points, unsigned int p);
+
+  /// Return edge @p k of the cell of point @p p, m.
   template <int dim>
   dealii::Tensor<1, dim>
   edge_of_cell(const Points<dim> &points, unsigned int k, unsigned int p);
-
-  /// Return edge @p d of the box of point @p p, m, without clipping: an edge of
-  /// the cell for convected domains, otherwise parallel to axis d.
-  template <int dim>
-  dealii::Tensor<1, dim>
-  edge_of_box(const Points<dim> &points,
-              BoxRule            rule,
-              unsigned int       d,
-              unsigned int       p);
 
   /// Return the edge of point @p p along which splits of direction @p d halve
   /// the point, m. Boxes that count shear are halved along the axes, all other
@@ -53,22 +50,21 @@ namespace talus
                 unsigned int       d,
                 unsigned int       p);
 
-  /// Return the stretch of edge_to_split() against its reference length [-].
+  /// Return the length of edge_to_split(), m.
   template <typename Number, int dim>
   TALUS_ALWAYS_INLINE Number
-  stretch_to_split(const PointsView<dim, const double> &points,
-                   const BoxRule                        rule,
-                   const unsigned int                   d,
-                   const unsigned int                   p)
+  length_to_split(const PointsView<dim, const double> &points,
+                  const BoxRule                        rule,
+                  const unsigned int                   d,
+                  const unsigned int                   p)
   {
     if (rule == BoxRule::left_stretch)
-      return load<Number>(points.data(points.stretch, d) + p);
+      return load<Number>(points.data(points.box_length, d) + p);
     Number square(0.);
     for (unsigned int i = 0; i < dim; ++i)
       {
-        const Number F = load<Number>(
-          points.data(points.deformation_gradient, dim * i + d) + p);
-        square += F * F;
+        const auto a = load<Number>(points.data(points.edges, dim * i + d) + p);
+        square += a * a;
       }
     return sqrt(square);
   }

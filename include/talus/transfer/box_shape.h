@@ -4,15 +4,15 @@
 
 namespace talus
 {
-  /// How the box of a point follows its edges a_k = L_k F e_k, with the
-  /// reference lengths L_k. The length along axis d is stretch_d times L_d. All
-  /// boxes but the convected domain stay parallel to the axes (GIMP).
+  /// How the box of a point follows the edges of its cell, which are the
+  /// columns of the tensor A. All boxes but the convected domain stay parallel
+  /// to the axes (GIMP).
   enum class BoxRule
   {
-    fixed,        ///< box keeps its reference length (uniform GIMP)
+    fixed,        ///< box keeps its lengths (uniform GIMP)
     left_stretch, ///< V_dd of F = V R: counts shear as stretch, for @cite esub
-    second_moments,  ///< second moments of the cell of edges (default)
-    convected_domain ///< |F e_d|, the cell of edges itself (CPDI)
+    second_moments,  ///< second moments of the cell (default)
+    convected_domain ///< the cell itself (CPDI)
   };
 
   /// Shape of the boxes for the weights. @cite bardenhagen2004

@@ -13,13 +13,11 @@
 
 namespace talus
 {
-  /// Domain of a point that convects with the material (CPDI): the undeformed
-  /// box mapped by F, a parallelogram or parallelepiped. The shape functions
+  /// Domain of a point that convects with the material (CPDI): the cell of the
+  /// edges of the point, a parallelogram or parallelepiped. The shape functions
   /// are interpolated between their values at the corners; mean and mean
   /// gradient of the interpolation are the weights of the point.
   /// @cite sadeghirad2011
-  ///
-  /// An edge belongs to an axis of the undeformed box, not of the mesh.
   template <int dim>
   class ConvectedDomain
   {
@@ -131,11 +129,10 @@ namespace talus
     Matrix<dim, double> half_edges;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        const double half = 0.5 * points.data(points.reference_length, d)[p];
-        centre_[d]        = points.data(points.position, d)[p];
+        centre_[d] = points.data(points.position, d)[p];
         for (unsigned int i = 0; i < dim; ++i)
           half_edge_[d][i] = half_edges[i][d] =
-            half * points.data(points.deformation_gradient, dim * i + d)[p];
+            0.5 * points.data(points.edges, dim * i + d)[p];
       }
     const auto dual = inverse(half_edges);
     for (unsigned int d = 0; d < dim; ++d)

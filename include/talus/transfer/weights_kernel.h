@@ -20,8 +20,7 @@ namespace talus
                        const Number      &inverse_cell_size)
   {
     const Number half =
-      0.5 * load<Number>(points.data(points.reference_length, d) + p) *
-      load<Number>(points.data(points.stretch, d) + p);
+      0.5 * load<Number>(points.data(points.box_length, d) + p);
     return clamp(half * inverse_cell_size, shape.min_half, shape.max_half);
   }
 
