@@ -61,6 +61,20 @@ namespace talus
 
 
 
+  // Boxes that count shear follow V, which halves only if all edges are halved.
+  template <int dim>
+  void
+  Splitter<dim>::check(const BoxShape &shape) const
+  {
+    AssertThrow(!enabled_ || !shape.counts_shear || directions_ == "all",
+                ExcUser("'Splitting/Shear = counted', the rule of the paper, "
+                        "splits points along all axes, but 'Splitting/"
+                        "Directions' is 'stretched'. Set 'Shear = ignored', "
+                        "or 'Directions = all'."));
+  }
+
+
+
   // The criterion of the paper, the stretch since creation, contains no length.
   // In a shear band with growing strain it requires splits without end, of
   // points that are already small. Hence it applies only to points longer than

@@ -38,6 +38,11 @@ namespace talus
   public:
     Splitter();
 
+    /// Throw ExcUser if only stretched edges are to be halved although @p shape
+    /// counts shear.
+    void
+    check(const BoxShape &shape) const;
+
     bool
     is_enabled() const
     {
