@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A first view of a run of talus in ParaView: soil coloured by speed with one range for all
-times, 3-D points as boxes, the bed in relief, structures, and the time.
+times, points as the cells of their edges, the bed in relief, structures, and the time.
 
     cd output/slope-3d && paraview --script=.../share/talus/paraview.py
-    pvpython paraview.py DIR [PICTURE.png [TIME]]
+    pvpython paraview.py DIR [PICTURE.png [TIME [boxes]]]
+
+With `boxes` points are drawn as boxes parallel to the axes.
 
 It may also be imported as a macro (Macros > Import new macro); it then shows the run whose
 points.pvd or points.xdmf is selected. Without a folder it takes the present one.
@@ -21,7 +23,7 @@ sys.path[:] = [path for path in sys.path if os.path.abspath(path) != HERE]
 from paraview import simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 
-SPEED, LENGTH, OBSTACLE = "speed [m/s]", "box length [m]", "obstacle"
+SPEED, LENGTH, EDGES, OBSTACLE = "speed [m/s]", "box length [m]", "edges [m]", "obstacle"
 # Share of the values that the scale of colours shows: single fast points do not take it.
 SHARE = 0.995
 STRUCTURE, BLACK, WHITE = [0.15] * 3, [0.0] * 3, [1.0] * 3
@@ -110,9 +112,14 @@ def terrain_numbers(folder):
 
 
 def show_soil(points, span, view):
-    """The points: boxes where they were written as dots, else their own cells."""
+    """The points: where they were written as dots, the cells of their edges or boxes."""
     shown, where = points, association(points, SPEED)
-    if association(points, LENGTH) == "POINTS":
+    if where == "POINTS" and sys.argv[4:] != ["boxes"]:
+        shown = simple.TensorGlyph(registrationName="soil", Input=points, GlyphType="Box")
+        shown.Tensors, shown.Scalars = ["POINTS", EDGES], ["POINTS", SPEED]
+        shown.ExtractEigenvalues = 0
+        shown.ScaleFactor = 1.0
+    elif where == "POINTS":
         shown = simple.Glyph(registrationName="soil", Input=points, GlyphType="Box")
         shown.ScaleArray = ["POINTS", LENGTH]
         shown.VectorScaleMode = "Scale by Components"
