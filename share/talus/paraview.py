@@ -111,7 +111,7 @@ def terrain_numbers(folder):
     return result
 
 
-def show_soil(points, span, view):
+def show_soil(points, span, is_plane, view):
     """The points: where they were written as dots, the cells of their edges or boxes."""
     shown, where = points, association(points, SPEED)
     if where == "POINTS" and sys.argv[4:] != ["boxes"]:
@@ -128,6 +128,8 @@ def show_soil(points, span, view):
         shown.GlyphMode = "All Points"
     drawn = simple.Show(shown, view)
     drawn.Representation = "Surface"
+    if is_plane:
+        drawn.Ambient, drawn.Diffuse = 1.0, 0.0  # a flat cell has no normal
     simple.ColorBy(drawn, (where, SPEED))
     colors = simple.GetColorTransferFunction(SPEED)
     colors.ApplyPreset("Viridis (matplotlib)", True)
@@ -218,7 +220,7 @@ def main():
     times = times_of(points)
     span, box = range_over_time(points, SPEED)
     is_plane = box[5] - box[4] < 1e-6 * (box[1] - box[0])
-    show_soil(points, span, view)
+    show_soil(points, span, is_plane, view)
     obstacles = reader_of(folder, "obstacles")
     if obstacles is not None:
         show_obstacles(obstacles, terrain_numbers(folder), is_plane, view)
