@@ -42,12 +42,12 @@ namespace talus
                   Patterns::Double(0., 1.));
     add_parameter("Maximum generation",
                   maximum_generation_,
-                  "Largest number of successive splits of a point [-]. The "
-                  "default suffices for a slide that thins to a fifth of a "
-                  "cell; thinner sheets need more. A point at the limit is not "
-                  "split: its box is "
-                  "clipped, and soil that stretches on may tear. Points at the "
-                  "limit are counted in statistics.csv and reported in "
+                  "Largest number of successive splits of a point [-]. No "
+                  "slide reaches the default, as points shorter than 'Minimum "
+                  "length' are not split; where shear is counted, choose a "
+                  "smaller number. A point at the limit is not split: its box "
+                  "is clipped, and soil that stretches on may tear. Points at "
+                  "the limit are counted in statistics.csv and reported in "
                   "log.txt.",
                   this->prm,
                   Patterns::Integer(0));
