@@ -80,11 +80,11 @@ namespace
           for (unsigned int i = 0; i < dim; ++i)
             {
               points.data(points.position, i)[p]         = random(0., 1.);
-              points.data(points.reference_length, i)[p] = random(0.3, 0.6);
-              points.data(points.stretch, i)[p]          = random(0.1, 2.5);
+              const double length                = random(0.3, 0.6);
+              points.data(points.box_length, i)[p] = length * random(0.1, 2.5);
               for (unsigned int j = 0; j < dim; ++j)
-                points.data(points.deformation_gradient, dim * i + j)[p] =
-                  (i == j) + random(-0.2, 0.2);
+                points.data(points.edges, dim * i + j)[p] =
+                  length * ((i == j) + random(-0.2, 0.2));
             }
           for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
             points.data(points.stress, c)[p] = random(-5e3, 5e3);

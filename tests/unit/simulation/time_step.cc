@@ -187,7 +187,7 @@ namespace
     soil.points.data(soil.points.velocity)[p] =
       std::numeric_limits<double>::quiet_NaN();
     EXPECT_TRUE(contains(message_of<ExcPoint>([&] { soil.step(); }),
-                         "stretch are not finite and positive at point 0"));
+                         "box length are not finite and positive at point 0"));
   }
 
 

@@ -95,7 +95,6 @@ namespace
             volume *= point.length[d];
           const unsigned int p = this->add(point.x, point.length);
           this->points.data(this->points.mass)[p]             = 1600. * volume;
-          this->points.data(this->points.reference_volume)[p] = volume;
           this->set(this->points.velocity, p, u);
         }
     }
