@@ -194,8 +194,8 @@ namespace
   determinant_of_edges()
   {
     const StrainedPoint<dim> point;
-    benchmark::DoNotOptimize(determinant(load_matrix<dim, Counted>(
-      point.points, Points<dim>::edges, 0)));
+    benchmark::DoNotOptimize(determinant(
+      load_matrix<dim, Counted>(point.points, Points<dim>::edges, 0)));
   }
 
 

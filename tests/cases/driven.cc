@@ -125,8 +125,8 @@ TEST(Driven, TractionStretchesABar)
       return;
     const double F =
       points.data(points.edges)[p] / points.data(points.length_at_creation)[p];
-    stretch        = std::max(stretch, std::abs(std::log(F) / 1e-3 - 1.));
-    stress = std::max(stress, std::abs(StressOf(points, p).xx / 100. - 1.));
+    stretch = std::max(stretch, std::abs(std::log(F) / 1e-3 - 1.));
+    stress  = std::max(stress, std::abs(StressOf(points, p).xx / 100. - 1.));
   });
   std::cout << "bar under traction: relative error of the stretch " << stretch
             << ", of the stress " << stress << ", damping work " << last_work

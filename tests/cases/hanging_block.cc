@@ -40,9 +40,9 @@ namespace
         const Points<2>   &points = block.points();
         const unsigned int F      = points.find("deformation gradient");
         for (unsigned int p = 0; p < points.size(); ++p)
-          result = std::max(result,
-                            std::hypot(points.data(F, 0)[p],
-                                       points.data(F, 1)[p]));
+          result =
+            std::max(result,
+                     std::hypot(points.data(F, 0)[p], points.data(F, 1)[p]));
       }
     return result;
   }

@@ -91,11 +91,10 @@ struct Core : FreshParameters, talus::State<dim>
                 const std::array<bool, 2 *dim> &may_move     = {},
                 const MPI_Comm                  communicator = MPI_COMM_WORLD)
     : talus::State<dim>(communicator)
-    , undeformed_length(
-        points.add_column("undeformed length",
-                          "m",
-                          talus::ColumnKind::vector,
-                          talus::Inheritance::copied))
+    , undeformed_length(points.add_column("undeformed length",
+                                          "m",
+                                          talus::ColumnKind::vector,
+                                          talus::Inheritance::copied))
     , random(4711)
   {
     dealii::ParameterAcceptor::declare_all_parameters();
@@ -471,7 +470,8 @@ inline std::string
 splitting_along(const std::string &directions)
 {
   return in_section("Splitting",
-                    std::string(directions == "all" ? "set Shear = counted\n" : "") +
+                    std::string(directions == "all" ? "set Shear = counted\n"
+                                                    : "") +
                       "set Minimum length = 0\nset Threshold = 1.5"
                       "\nset Directions = " +
                       directions);

@@ -79,9 +79,9 @@ struct Scene : public talus::State<dim>
     points.data(points.id)[p]   = p;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        points.data(points.position, d)[p]         = x[d];
-        points.data(points.initial_position, d)[p] = x[d];
-        points.data(points.velocity, d)[p]         = velocity[d];
+        points.data(points.position, d)[p]           = x[d];
+        points.data(points.initial_position, d)[p]   = x[d];
+        points.data(points.velocity, d)[p]           = velocity[d];
         points.data(points.edges, d * (dim + 1))[p]  = 0.5;
         points.data(points.box_length, d)[p]         = 0.5;
         points.data(points.length_at_creation, d)[p] = 0.5;

@@ -79,8 +79,8 @@ namespace
         {
           for (unsigned int i = 0; i < dim; ++i)
             {
-              points.data(points.position, i)[p]         = random(0., 1.);
-              const double length                = random(0.3, 0.6);
+              points.data(points.position, i)[p]   = random(0., 1.);
+              const double length                  = random(0.3, 0.6);
               points.data(points.box_length, i)[p] = length * random(0.1, 2.5);
               for (unsigned int j = 0; j < dim; ++j)
                 points.data(points.edges, dim * i + j)[p] =

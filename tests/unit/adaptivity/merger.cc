@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/adaptivity/merger.h>
+#include <talus/materials/materials.h>
 #include <talus/transfer/box_rule.h>
 
 #include <numeric>
@@ -249,6 +250,44 @@ namespace
 
 
 
+  // The edges of a joint cell do not tell the deformation gradient, of which
+  // the stress of a hyperelastic law is a function.
+  TEST(Merger, PointsOfHyperelasticLawsStay)
+  {
+    Merging<2>   core;
+    Materials<2> materials(
+      {{"rubber", "neo-Hookean"}, {"clay", "linear elastic"}});
+    using dealii::ParameterAcceptor;
+    ParameterAcceptor::declare_all_parameters();
+    for (const std::string name : {"rubber", "clay"})
+      ParameterAcceptor::prm.parse_input_from_string(
+        in_section("Materials",
+                   in_section(name,
+                              "set Young's modulus = 1e6\n"
+                              "set Poisson's ratio = 0.3")));
+    ParameterAcceptor::parse_all_parameters();
+    materials.assign({"block", "soil"}, {"rubber", "clay"});
+    materials.add_columns(core.points);
+    core.constants.box_shape = core.transfer.box_shape();
+    core.merger.prepare(core.splitter, core.constants.box_shape);
+    core.merger.open_accounts(core.accounts);
+    for (const unsigned int body : {0, 1})
+      {
+        for (const double x : {1.1, 1.3})
+          core.add({x + body, 1.1}, Point<2>(0.2, 0.2), body);
+        materials.of_body(body).initialize(core.points, 2 * body, 2 * body + 2);
+      }
+    core.sort();
+    core.merger.apply(core, core.splitter, materials);
+    std::array<unsigned int, 2> n{{0, 0}};
+    for (unsigned int p = 0; p < core.points.size(); ++p)
+      ++n[core.points.data(core.points.body)[p]];
+    EXPECT_EQ(n[0], 2u);
+    EXPECT_EQ(n[1], 1u);
+  }
+
+
+
   TEST(Merger, WhatWouldBeSplitIsRefused)
   {
     const auto message = [](const std::string &splitter) {
@@ -260,8 +299,8 @@ namespace
     EXPECT_EQ(message(""), "");
     EXPECT_EQ(message("set Minimum length = 0.5625"), "");
     EXPECT_EQ(message("set Enabled = false\nset Minimum length = 0"), "");
-    EXPECT_TRUE(
-      contains(message("set Shear = counted\nset Directions = all"), "'Splitting/Merge = false'"));
+    EXPECT_TRUE(contains(message("set Shear = counted\nset Directions = all"),
+                         "'Splitting/Merge = false'"));
     const std::string refused = message("set Minimum length = 0.55");
     for (const std::string part :
          {"'Splitting/Merge length' is 0.45", "0.55 cells", "at most 0.44"})
@@ -327,8 +366,8 @@ namespace
       for (unsigned int c = 0; c < column.n_components; ++c)
         {
           const unsigned int expected =
-            (column.first == points.length_at_creation ? n_columns :
-                                                         column.first) +
+            (column.first == points.length_at_creation ? n_columns
+                                                       : column.first) +
             c;
           EXPECT_NEAR(points.data(column.first, c)[0],
                       parent[expected],

@@ -13,8 +13,7 @@ namespace
   splitting(const std::string &entries)
   {
     return in_section("Splitting",
-                      "set Shear = counted\nset Directions = all\n" +
-                        entries);
+                      "set Shear = counted\nset Directions = all\n" + entries);
   }
 
 
@@ -29,8 +28,7 @@ namespace
               const double       creation_stretch = 1.,
               const unsigned int generation       = 0)
   {
-    Core<dim>      core(cube<dim>() +
-                   splitting(parameters));
+    Core<dim>      core(cube<dim>() + splitting(parameters));
     auto          &points = core.points;
     Point<dim>     x;
     Tensor<1, dim> lengths;
@@ -241,9 +239,9 @@ namespace
   {
     for (const unsigned int budget : {12, 13})
       {
-        Core<2> core(cube<2>() +
-                     splitting(text("set Maximum number of points = ",
-                                    budget)));
+        Core<2> core(
+          cube<2>() +
+          splitting(text("set Maximum number of points = ", budget)));
         for (unsigned int i = 0; i < 3; ++i)
           {
             core.add(Point<2>(0.5 + i, 0.5), Point<2>(0.6, 0.6));
@@ -265,8 +263,8 @@ namespace
   TEST(Splitter, BudgetOfPoints)
   {
     const auto enforce = [](const unsigned int budget) {
-      Core<2> core(cube<2>() + splitting(text("set Maximum number of points = ",
-                                              budget)));
+      Core<2> core(cube<2>() +
+                   splitting(text("set Maximum number of points = ", budget)));
       for (unsigned int i = 0; i < 3; ++i)
         {
           core.add(Point<2>(0.5 + i, 0.5), Point<2>(0.6, 0.6));
@@ -350,8 +348,8 @@ namespace
           points.data(column.first, c)[p] = core.number(1., 2.);
     core.set_undeformed(p, length);
     core.set_deformation(p,
-                         by_axes ? stretching_axes(core, stretch) :
-                                   stretching_edges(core, stretch));
+                         by_axes ? stretching_axes(core, stretch)
+                                 : stretching_edges(core, stretch));
     update_box_lengths(points, p, p + 1, rule);
     const unsigned int copy = points.append(1);
     points.copy(p, copy);
@@ -394,12 +392,14 @@ namespace
           EXPECT_EQ(A_q[i][d], share * A[i][d]);
         const double box = points.data(points.box_length, d)[q];
         if (rule == BoxRule::left_stretch)
-          EXPECT_NEAR(box, 0.5 * points.data(points.box_length, d)[parent], 1e-15);
+          EXPECT_NEAR(box,
+                      0.5 * points.data(points.box_length, d)[parent],
+                      1e-15);
         else
           EXPECT_NEAR(box, A_q[d].norm(), 1e-15);
         EXPECT_NEAR(points.data(points.length_at_creation, d)[q],
-                    rule == BoxRule::left_stretch ? box :
-                                                    transpose(A_q)[d].norm(),
+                    rule == BoxRule::left_stretch ? box
+                                                  : transpose(A_q)[d].norm(),
                     1e-15);
       }
   }
@@ -417,8 +417,8 @@ namespace
                         const unsigned int halved)
   {
     const auto          &points = core.points;
-    const Tensor<1, dim> offset = core.get(points.position, q) -
-                                  core.get(points.position, parent);
+    const Tensor<1, dim> offset =
+      core.get(points.position, q) - core.get(points.position, parent);
     Tensor<2, dim> directions = core.edges(parent);
     if (core.transfer.box_shape().rule == BoxRule::left_stretch)
       {
@@ -459,8 +459,7 @@ namespace
       for (unsigned int c = 0; c < column.n_components; ++c)
         if (column.first != points.position &&
             column.first != points.initial_position &&
-            column.first != points.edges &&
-            column.first != points.box_length &&
+            column.first != points.edges && column.first != points.box_length &&
             column.first != points.length_at_creation &&
             column.first != points.generation && column.first != points.id)
           {
@@ -482,7 +481,7 @@ namespace
       cube<dim>() + splitting_along(directions) +
       in_section("Splitting",
                  "set Minimum length = 0.7\nset Maximum generation = 3"));
-    auto     &points = core.points;
+    auto &points = core.points;
     add_parent(core, axes);
     const unsigned int parent = index_of(core, 2), child = index_of(core, 1);
     const unsigned int n_before = points.size();

@@ -11,8 +11,8 @@ namespace
   splitting(const std::string &directions, const std::string &threshold)
   {
     return in_section("Splitting",
-                      std::string(
-                        directions == "all" ? "set Shear = counted\n" : "") +
+                      std::string(directions == "all" ? "set Shear = counted\n"
+                                                      : "") +
                         "set Threshold = " + threshold +
                         "\nset Directions = " + directions);
   }

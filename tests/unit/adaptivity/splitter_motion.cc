@@ -15,7 +15,7 @@ namespace
   const std::array<std::pair<BoxRule, std::string>, 4> rules{
     {{BoxRule::fixed, in_section("Transfer", "set Box rule = fixed")},
      {BoxRule::second_moments, ""},
-     {BoxRule::left_stretch, 
+     {BoxRule::left_stretch,
       in_section("Splitting", "set Shear = counted\nset Directions = all")},
      {BoxRule::convected_domain,
       in_section("Transfer", "set Box rule = convected domain")}}};

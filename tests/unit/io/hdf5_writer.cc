@@ -40,8 +40,8 @@ namespace
           s.add(x);
         }
       for (const Column &column : s.points.columns())
-        if (column.first != s.points.position &&
-            column.first != s.points.id && column.first != s.points.edges)
+        if (column.first != s.points.position && column.first != s.points.id &&
+            column.first != s.points.edges)
           for (unsigned int c = 0; c < column.n_components; ++c)
             for (unsigned int p = 0; p < 2; ++p)
               s.points.data(column.first, c)[p] =
@@ -100,7 +100,7 @@ namespace
     expect_tensors(const Points<dim> &points, const fs::path &file)
     {
       const auto stress = read_dataset<float>(file, "fields/stress");
-      const auto A = read_dataset<float>(file, "fields/edges");
+      const auto A      = read_dataset<float>(file, "fields/edges");
       const auto F = read_dataset<float>(file, "fields/deformation gradient");
       EXPECT_EQ(stress.extent, std::vector<hsize_t>({2, 9}));
       EXPECT_EQ(A.extent, std::vector<hsize_t>({2, 9}));
@@ -119,13 +119,13 @@ namespace
                           ? float(points.data(points.stress, c)[p])
                           : 0.f);
               EXPECT_EQ(A.values[9 * p + 3 * i + j],
-                        in_space ?
-                          float(points.data(points.edges, dim * i + j)[p]) :
-                          0.f);
+                        in_space
+                          ? float(points.data(points.edges, dim * i + j)[p])
+                          : 0.f);
               EXPECT_EQ(F.values[9 * p + 3 * i + j],
-                        in_space ?
-                          float(points.data(deformation, dim * i + j)[p]) :
-                          float(i == j));
+                        in_space
+                          ? float(points.data(deformation, dim * i + j)[p])
+                          : float(i == j));
             }
     }
 
@@ -250,11 +250,11 @@ namespace
     for (unsigned int p = 0; p < 2; ++p)
       store_matrix(s.points, s.points.edges, p, A);
     update_box_lengths(s.points, 0, 2, s.constants.box_shape.rule);
-    const fs::path file       = write(s, /*boxes_as_cells=*/true);
+    const fs::path file = write(s, /*boxes_as_cells=*/true);
     expect_tensors(s.points, file);
-    const auto     x          = read_dataset<float>(file, "mesh/vertices");
-    const auto     cells      = read_dataset<std::int64_t>(file, "mesh/cells");
-    const int      sign[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    const auto x          = read_dataset<float>(file, "mesh/vertices");
+    const auto cells      = read_dataset<std::int64_t>(file, "mesh/cells");
+    const int  sign[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
     for (unsigned int p = 0; p < 2; ++p)
       for (unsigned int v = 0; v < 4; ++v)
         for (unsigned int d = 0; d < 2; ++d)

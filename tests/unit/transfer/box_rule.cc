@@ -18,8 +18,8 @@ namespace
   void
   expect_polar_decomposition()
   {
-    Core<dim> core(cube<dim>());
-    auto     &points = core.points;
+    Core<dim>    core(cube<dim>());
+    auto        &points = core.points;
     const double length = 0.7; // of squares or cubes
     points.append(n_points);
     for (unsigned int round = 0; round < 50; ++round)

@@ -382,7 +382,7 @@ namespace
       {
         Core<dim> core(cube<dim>() + convected + splitting_along("all"));
         core.random.seed(i);
-        const auto p                                      = add_point(core,
+        const auto p = add_point(core,
                                  core.place(1.),
                                  core.vector(0.5, 0.7),
                                  random_deformation(core, 0.1));
@@ -445,7 +445,7 @@ namespace
         core.random.seed(i);
         if (hanging_nodes)
           refine_corner(core);
-        const auto p                                      = add_point(core,
+        const auto p = add_point(core,
                                  core.place(1.),
                                  core.vector(0.5, 0.6),
                                  random_deformation(core, 0.2));

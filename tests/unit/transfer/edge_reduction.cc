@@ -61,9 +61,7 @@ namespace
         update_box_lengths(core.points, 0, 1, BoxRule::second_moments);
         ASSERT_FALSE(core.split()) << i;
         // The row keeps its height.
-        EXPECT_NEAR(core.get(core.points.box_length, 0)[1],
-                    length[1],
-                    1e-12);
+        EXPECT_NEAR(core.get(core.points.box_length, 0)[1], length[1], 1e-12);
       }
     EXPECT_LT((core.edges(0) - start).norm(), 1e-9);
     EXPECT_NEAR(determinant(core.deformation(0)), 1., 1e-12);

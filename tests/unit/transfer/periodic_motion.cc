@@ -168,9 +168,9 @@ namespace
         Tensor<1, dim> length;
         for (unsigned int d = 0; d < dim; ++d)
           length[d] = 0.5;
-        const unsigned int p                    = core.add(x, length);
-        points.data(points.mass)[p]             = density * std::pow(0.5, dim);
-        points.data(points.id)[p]               = i;
+        const unsigned int p        = core.add(x, length);
+        points.data(points.mass)[p] = density * std::pow(0.5, dim);
+        points.data(points.id)[p]   = i;
         core.set(points.velocity, p, v);
       }
   }
@@ -204,9 +204,9 @@ namespace
                                                points.all());
         law->update_stress(points, core.workspace, 0, points.size(), dt);
         update_box_lengths(points,
-                       0,
-                       points.size(),
-                       core.transfer.box_shape().rule);
+                           0,
+                           points.size(),
+                           core.transfer.box_shape().rule);
         core.sort();
         EXPECT_LT((look_at(core).momentum - start.momentum).norm(),
                   1e-13 * start.momentum.norm());
