@@ -151,5 +151,5 @@ TEST(GeographicMotion, AcrossTheDateLine)
 
 TEST(GeographicMotion, UnknownMap)
 {
-  EXPECT_THROW(on_degrees(hill(5.), "EPSG:999999"), ExceptionBase);
+  EXPECT_THROW(on_degrees(hill(5.), "EPSG:999999"), dealii::ExceptionBase);
 }
