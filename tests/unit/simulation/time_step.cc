@@ -41,7 +41,7 @@ namespace
     add(const Point<dim> &x, const Tensor<1, dim> &length)
     {
       const unsigned int p        = Statics<dim>::add(x, length);
-      points.data(points.mass)[p] = rho; // of 1 m^dim
+      points.data(points.mass)[p] = rho * this->volume(p);
       return p;
     }
 
