@@ -291,7 +291,7 @@ namespace talus
                 ExcPoint(
                   text("No time step can be chosen (it would be ",
                        dt,
-                       " s): velocity, wave speed, volume or stretch are "
+                       " s): velocity, wave speed, volume or box length are "
                        "not finite and positive at ",
                        first_without_bound(points, materials),
                        ". The simulation became unstable: lower 'Time "

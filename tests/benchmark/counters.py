@@ -15,7 +15,7 @@ GROUPS = {
     "scatter": r"talus::Transfer<\d>::scatter\b",
     "gather": r"talus::Transfer<\d>::gather\b",
     "means": r"talus::Transfer<\d>::(average_|set_cell_means|shift_to_cell_means)",
-    "stress": r"talus::.*(update_stress|update_by_state|update_stretch)",
+    "stress": r"talus::.*(update_stress|update_by_state|update_box_lengths)",
     "time step": r"talus::(TimeStep<|.*wave_modulus)",
     "splitting": r"talus::Splitter<",
     "relocation": r"talus::(Relocation|Reordering|Rows|BlockMove|ElementMove)",

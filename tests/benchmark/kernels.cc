@@ -72,14 +72,14 @@ namespace
 
   template <int dim>
   void
-  stretch(benchmark::State &state, const BoxRule rule)
+  box_lengths(benchmark::State &state, const BoxRule rule)
   {
     Sample<dim> sample("linear elastic");
     sample.law->update_stress(
       sample.points, sample.workspace, 0, sample.points.size(), 0.3);
     for (auto _ : state)
       {
-        update_stretch(sample.points, 0, sample.points.size(), rule);
+        update_box_lengths(sample.points, 0, sample.points.size(), rule);
         benchmark::ClobberMemory();
       }
     count_points(state, sample.points.size());
@@ -102,11 +102,11 @@ namespace
                                      stress<3>,
                                      law);
       }
-    benchmark::RegisterBenchmark("update_stretch<2>/second moments",
-                                 stretch<2>,
+    benchmark::RegisterBenchmark("update_box_lengths<2>/second moments",
+                                 box_lengths<2>,
                                  BoxRule::second_moments);
-    benchmark::RegisterBenchmark("update_stretch<3>/second moments",
-                                 stretch<3>,
+    benchmark::RegisterBenchmark("update_box_lengths<3>/second moments",
+                                 box_lengths<3>,
                                  BoxRule::second_moments);
     return true;
   }();

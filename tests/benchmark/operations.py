@@ -19,13 +19,11 @@ import statistics
 COLUMNS = {
     "position": lambda d: d,
     "velocity": lambda d: d,
-    "deformation gradient": lambda d: d * d,
+    "edges": lambda d: d * d,
     "stress": lambda d: 2 * d,
     "mass": lambda d: 1,
-    "reference volume": lambda d: 1,
-    "reference length": lambda d: d,
-    "stretch": lambda d: d,
-    "creation stretch": lambda d: d,
+    "box length": lambda d: d,
+    "length at creation": lambda d: d,
     "elastic energy": lambda d: 1,
     "plastic work": lambda d: 1,
     "plastic strain": lambda d: 1,
@@ -38,18 +36,16 @@ COLUMNS = {
 # von Mises, boxes that follow the stretch.
 SWEEPS = {
     "time step": (
-        ["deformation gradient", "reference volume", "mass", "velocity",
-         "reference length", "stretch"], []),
+        ["edges", "mass", "velocity", "box length"], []),
     "points to grid": (["position", "stress"], []),
     "grid to points": (
-        ["position", "reference length", "stretch", "velocity", "mass",
-         "deformation gradient", "reference volume"],
+        ["position", "box length", "velocity", "mass", "edges"],
         ["position", "velocity"]),
     "stress update": (
         ["stress", "elastic energy", "plastic work", "plastic strain"],
-        ["deformation gradient", "stress", "elastic energy", "plastic work",
-         "plastic strain", "stretch"]),
-    "splitting": (["creation stretch", "generation"], []),
+        ["edges", "stress", "elastic energy", "plastic work",
+         "plastic strain", "box length"]),
+    "splitting": (["length at creation", "generation"], []),
 }
 
 

@@ -38,7 +38,8 @@ namespace talus
       workspace.reinit(0, n_points);
       for (unsigned int p = 0; p < n_points; ++p)
         set_point(p);
-      initialize_stretch(points, 0, n_points, BoxRule::second_moments);
+      law->initialize(points, 0, n_points);
+      begin_stretch(points, 0, n_points, BoxRule::second_moments);
     }
 
     ~Sample()
@@ -56,8 +57,7 @@ namespace talus
       points.data(points.reference_volume)[p] = 1.;
       for (unsigned int d = 0; d < dim; ++d)
         {
-          points.data(points.deformation_gradient, d * (dim + 1))[p] = 1.;
-          points.data(points.reference_length, d)[p]                 = 1.;
+          points.data(points.edges, d * (dim + 1))[p] = 1.;
           for (unsigned int e = 0; e < dim; ++e)
             workspace.velocity_gradient(d, e)[p] = 0.;
         }

@@ -39,15 +39,11 @@ namespace
       {
         const auto lengths = box_lengths(state, p);
         area += lengths[0] * lengths[1];
-        soil +=
-          points.data(points.reference_volume)[p] *
-          determinant(
-            load_matrix<2, double>(points, points.deformation_gradient, p));
+        soil += volume_of_points<2, double>(points, p);
         for (unsigned int d = 0; d < 2; ++d)
           boxes.longest =
             std::max(boxes.longest,
-                     points.data(points.stretch, d)[p] *
-                       points.data(points.reference_length, d)[p] /
+                     points.data(points.box_length, d)[p] /
                        state.grid.cells()[points.cell_of(p)].size);
       }
     boxes.cover = area / soil;

@@ -80,7 +80,9 @@ namespace
         if (!is_near)
           continue;
         const auto F =
-          load_matrix<dim, double>(points, points.deformation_gradient, p);
+          load_matrix<dim, double>(points,
+                                   points.find("deformation gradient"),
+                                   p);
         sum += points.data(points.position, 1)[p];
         for (unsigned int d = 0; d < dim; ++d)
           sum += F[1][d] * to_X[d];

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 using namespace talus;
 using namespace talus::cases;
@@ -27,6 +28,7 @@ namespace
 
 
 
+  /// Along x: the length of row x of F, as square points have it.
   double
   largest_stretch()
   {
@@ -35,10 +37,12 @@ namespace
     while (block->state().time < end)
       {
         block->advance();
-        const Points<2> &points  = block.points();
-        const double    *stretch = points.data(points.stretch);
-        result =
-          std::max(result, *std::max_element(stretch, stretch + points.size()));
+        const Points<2>   &points = block.points();
+        const unsigned int F      = points.find("deformation gradient");
+        for (unsigned int p = 0; p < points.size(); ++p)
+          result =
+            std::max(result,
+                     std::hypot(points.data(F, 0)[p], points.data(F, 1)[p]));
       }
     return result;
   }

@@ -122,8 +122,7 @@ namespace
         ++n_points;
         if (std::abs(points.data(points.position, 0)[p]) < 120. &&
             points.data(points.position, 1)[p] < 1.)
-          heights.push_back(points.data(points.stretch, 1)[p] *
-                            points.data(points.reference_length, 1)[p]);
+          heights.push_back(points.data(points.box_length, 1)[p]);
       }
     std::nth_element(heights.begin(),
                      heights.begin() + heights.size() / 2,

@@ -139,7 +139,7 @@ class State(FromPython):
         points = run.points
         velocity, position, mass = points["velocity"], points["position"], points["mass"]
         self.assertEqual(velocity.shape, (2, len(mass)))
-        self.assertEqual(points["deformation gradient"].shape, (2, 2, len(mass)))
+        self.assertEqual(points["edges"].shape, (2, 2, len(mass)))
         self.assertEqual(points["stress"].shape, (4, len(mass)))
         self.assertEqual((points.units["velocity"], points.units["mass"]), ("m/s", "kg"))
         for array in (velocity, position, mass):

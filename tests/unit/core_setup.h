@@ -91,6 +91,10 @@ struct Core : FreshParameters, talus::State<dim>
                 const std::array<bool, 2 *dim> &may_move     = {},
                 const MPI_Comm                  communicator = MPI_COMM_WORLD)
     : talus::State<dim>(communicator)
+    , undeformed_length(points.add_column("undeformed length",
+                                          "m",
+                                          talus::ColumnKind::vector,
+                                          talus::Inheritance::copied))
     , random(4711)
   {
     dealii::ParameterAcceptor::declare_all_parameters();
@@ -175,28 +179,66 @@ struct Core : FreshParameters, talus::State<dim>
   }
 
   void
-  set_deformation(const unsigned int p, const Tensor &F)
+  set(const unsigned int column, const unsigned int p, const Tensor &value)
   {
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
-        points.data(points.deformation_gradient, dim * i + j)[p] = F[i][j];
+        points.data(column, dim * i + j)[p] = value[i][j];
   }
 
+  /// Edges of the cell of point @p p as columns, m.
+  Tensor
+  edges(const unsigned int p) const
+  {
+    Tensor A;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        A[i][j] = points.data(points.edges, dim * i + j)[p];
+    return A;
+  }
+
+  /// Set the edges to F diag(L) with the undeformed lengths L, and F itself if
+  /// a law needs it. The box stays what it is.
+  void
+  set_deformation(const unsigned int p, const Tensor &F)
+  {
+    const Vector length = get(undeformed_length, p);
+    Tensor       A      = F;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int k = 0; k < dim; ++k)
+        A[i][k] *= length[k];
+    set(points.edges, p, A);
+    for (const talus::Column &column : points.columns())
+      if (column.name == "deformation gradient")
+        set(column.first, p, F);
+  }
+
+  /// F by the edges: of the undeformed cell that add() made, also after splits
+  /// and after a reduction of the edges.
   Tensor
   deformation(const unsigned int p) const
   {
-    Tensor F;
+    const Vector length = get(undeformed_length, p);
+    Tensor       F      = edges(p);
     for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-        F[i][j] = points.data(points.deformation_gradient, dim * i + j)[p];
+      for (unsigned int k = 0; k < dim; ++k)
+        F[i][k] /= length[k];
     return F;
+  }
+
+  /// Stretch the cell and the box of point @p p along axis @p d.
+  void
+  stretch(const unsigned int p, const unsigned int d, const double factor)
+  {
+    for (unsigned int k = 0; k < dim; ++k)
+      points.data(points.edges, dim * d + k)[p] *= factor;
+    points.data(points.box_length, d)[p] *= factor;
   }
 
   double
   volume(const unsigned int p) const
   {
-    return points.data(points.reference_volume)[p] *
-           determinant(deformation(p));
+    return determinant(edges(p));
   }
 
   /// Cauchy stress, the part within the dimensions of the mesh.
@@ -227,22 +269,26 @@ struct Core : FreshParameters, talus::State<dim>
       const Vector             &length,
       const unsigned int        body = 0)
   {
-    const unsigned int p                    = points.append(1);
-    points.data(points.mass)[p]             = 1.;
-    points.data(points.reference_volume)[p] = 1.;
-    points.data(points.id)[p]               = p;
-    points.data(points.body)[p]             = body;
+    const unsigned int p        = points.append(1);
+    points.data(points.mass)[p] = 1.;
+    points.data(points.id)[p]   = p;
+    points.data(points.body)[p] = body;
     set(points.position, p, x);
     set(points.initial_position, p, x);
-    set(points.reference_length, p, length);
-    Vector one;
-    for (unsigned int d = 0; d < dim; ++d)
-      one[d] = 1.;
-    set(points.stretch, p, one);
-    set(points.creation_stretch, p, one);
-    set_deformation(p, dealii::unit_symmetric_tensor<dim>());
+    set_undeformed(p, length);
     splitter.number_from(points.size(), 1);
     return p;
+  }
+
+  /// Make the cell of point @p p an undeformed box with these lengths.
+  void
+  set_undeformed(const unsigned int p, const Vector &length)
+  {
+    set(undeformed_length, p, length);
+    set(points.box_length, p, length);
+    set(points.length_at_creation, p, length);
+    set_deformation(p, Tensor(dealii::unit_symmetric_tensor<dim>()));
+    points.data(points.reference_volume)[p] = volume(p);
   }
 
   /// Give a point a random state of every kind but its place and its box.
@@ -330,7 +376,10 @@ struct Core : FreshParameters, talus::State<dim>
   talus::Splitter<dim>   splitter;
   talus::Relocation<dim> relocation;
   talus::Loads<dim>      loads;
-  std::mt19937           random;
+  /// Column of the lengths L of the undeformed edges, m, which go where their
+  /// point goes. Splits do not halve them.
+  const unsigned int undeformed_length;
+  std::mt19937       random;
 };
 
 
@@ -416,14 +465,15 @@ message_of(const Action &action)
 
 
 /// A splitter that splits whatever is longer than 1.5 times its length, along
-/// the axes of @p directions.
+/// the axes of @p directions. Shear is counted where all axes are split.
 inline std::string
 splitting_along(const std::string &directions)
 {
   return in_section("Splitting",
-                    "set Shear = counted\nset Minimum length = 0"
-                    "\nset Threshold = 1.5"
-                    "\nset Directions = " +
+                    std::string(directions == "all" ? "set Shear = counted\n"
+                                                    : "") +
+                      "set Minimum length = 0\nset Threshold = 1.5"
+                      "\nset Directions = " +
                       directions);
 }
 

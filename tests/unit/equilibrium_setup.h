@@ -87,10 +87,9 @@ namespace
             }
           if (grid.find_cell(x) >= grid.n_owned_cells())
             continue;
-          const unsigned int p                    = this->add(x, length, body);
-          points.data(points.reference_volume)[p] = volume;
-          points.data(points.mass)[p]             = density * volume;
-          points.data(points.id)[p]               = n_before + k;
+          const unsigned int p        = this->add(x, length, body);
+          points.data(points.mass)[p] = density * volume;
+          points.data(points.id)[p]   = n_before + k;
         }
       n_before += n_all;
     }

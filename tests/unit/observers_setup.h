@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -78,14 +79,23 @@ struct Scene : public talus::State<dim>
     points.data(points.id)[p]   = p;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        points.data(points.position, d)[p]         = x[d];
-        points.data(points.initial_position, d)[p] = x[d];
-        points.data(points.velocity, d)[p]         = velocity[d];
-        points.data(points.deformation_gradient, d * (dim + 1))[p] = 1.;
-        points.data(points.stretch, d)[p]                          = 1.;
-        points.data(points.reference_length, d)[p]                 = 0.5;
+        points.data(points.position, d)[p]           = x[d];
+        points.data(points.initial_position, d)[p]   = x[d];
+        points.data(points.velocity, d)[p]           = velocity[d];
+        points.data(points.edges, d * (dim + 1))[p]  = 0.5;
+        points.data(points.box_length, d)[p]         = 0.5;
+        points.data(points.length_at_creation, d)[p] = 0.5;
       }
+    points.data(points.reference_volume)[p] = std::pow(0.5, dim);
     return p;
+  }
+
+  /// Stretch an undeformed point @p p and its box along axis @p d.
+  void
+  stretch(const unsigned int p, const unsigned int d, const double factor)
+  {
+    points.data(points.edges, d * (dim + 1))[p] *= factor;
+    points.data(points.box_length, d)[p] *= factor;
   }
 
   /// Sort the points by cell.

@@ -83,6 +83,8 @@ namespace talus
       : law(std::move(the_law))
     {
       law->add_columns(points);
+      if (law->is_hyperelastic())
+        deformation = points.find("deformation gradient");
       points.append(n_points);
       workspace.reinit(0, n_points);
       for (unsigned int p = 0; p < n_points; ++p)
@@ -93,16 +95,27 @@ namespace talus
         }
     }
 
+    /// The undeformed cell is a box of 0.37 m x 1 m (x 1 m).
     void
     set_F(const Matrix<dim, double> &F, const unsigned int p = 0)
     {
-      store_matrix(points, points.deformation_gradient, p, F);
+      auto edges = F;
+      for (unsigned int i = 0; i < dim; ++i)
+        edges[i][0] *= volume;
+      store_matrix(points, points.edges, p, edges);
+      if (law->is_hyperelastic())
+        store_matrix(points, deformation, p, F);
     }
 
     Matrix<dim, double>
     F(const unsigned int p = 0) const
     {
-      return load_matrix<dim, double>(points, points.deformation_gradient, p);
+      if (law->is_hyperelastic())
+        return load_matrix<dim, double>(points, deformation, p);
+      auto F = load_matrix<dim, double>(points, points.edges, p);
+      for (unsigned int i = 0; i < dim; ++i)
+        F[i][0] /= volume;
+      return F;
     }
 
     void
@@ -183,6 +196,10 @@ namespace talus
 
     static constexpr double volume = 0.37;
     static constexpr double dt     = 0.01;
+
+  private:
+    /// Column of F of a hyperelastic law.
+    unsigned int deformation = dealii::numbers::invalid_unsigned_int;
   };
 
 

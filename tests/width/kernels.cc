@@ -53,14 +53,15 @@ namespace
 
 
 
-  /// Points with a column for the law and one for the factor of the strength,
-  /// in plain memory.
+  /// Points with a column for the law, one for the factor of the strength, and
+  /// one for F of hyperelastic laws, in plain memory.
   template <int dim>
   struct State
   {
     static constexpr unsigned int plastic_strain  = PointColumns<dim>::n_arrays;
     static constexpr unsigned int strength_factor = plastic_strain + 1;
-    static constexpr unsigned int n_columns       = strength_factor + 1;
+    static constexpr unsigned int deformation     = strength_factor + 1;
+    static constexpr unsigned int n_columns       = deformation + dim * dim;
 
     std::vector<double> columns, work;
 
@@ -79,12 +80,15 @@ namespace
         {
           for (unsigned int i = 0; i < dim; ++i)
             {
-              points.data(points.position, i)[p]         = random(0., 1.);
-              points.data(points.reference_length, i)[p] = random(0.3, 0.6);
-              points.data(points.stretch, i)[p]          = random(0.1, 2.5);
+              points.data(points.position, i)[p]   = random(0., 1.);
+              const double length                  = random(0.3, 0.6);
+              points.data(points.box_length, i)[p] = length * random(0.1, 2.5);
               for (unsigned int j = 0; j < dim; ++j)
-                points.data(points.deformation_gradient, dim * i + j)[p] =
-                  (i == j) + random(-0.2, 0.2);
+                {
+                  const double F = (i == j) + random(-0.2, 0.2);
+                  points.data(deformation, dim * i + j)[p]  = F;
+                  points.data(points.edges, dim * i + j)[p] = 0.4 * F;
+                }
             }
           for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
             points.data(points.stress, c)[p] = random(-5e3, 5e3);
@@ -228,7 +232,7 @@ namespace
     expect_same<dim>(
       [&](const auto points, const auto work, const unsigned int p, auto n) {
         return update_point_by_state<dim, decltype(n)>(
-          points, work, p, dt, energy);
+          points, work, State<dim>::deformation, p, dt, energy);
       });
   }
 

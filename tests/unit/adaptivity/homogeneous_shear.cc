@@ -49,7 +49,7 @@ namespace
         {
           this->set_deformation(0, step * this->deformation(0));
           reduce_edges(this->points, 0, 1, false);
-          update_stretch(this->points, 0, 1, BoxRule::second_moments);
+          update_box_lengths(this->points, 0, 1, BoxRule::second_moments);
           mean_points += n_points / std::lround(100. * gamma);
           if (this->split())
             {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/points/points_kernel.h>
+
 #include "core_setup.h"
 
 namespace
@@ -10,32 +12,33 @@ namespace
   std::string
   splitting(const std::string &entries)
   {
-    return in_section("Splitting", "set Shear = counted\n" + entries);
+    return in_section("Splitting",
+                      "set Shear = counted\nset Directions = all\n" + entries);
   }
 
 
 
-  /// One point with a stretch along x; returns the number of points after.
+  /// One point of @p length along x before any stretch, m, that is stretched
+  /// along x, also at its creation; returns the number of points after.
   template <int dim>
   unsigned int
   count_after(const std::string &parameters,
-              const double       reference_length,
+              const double       length,
               const double       stretch,
               const double       creation_stretch = 1.,
               const unsigned int generation       = 0)
   {
-    Core<dim>      core(cube<dim>() +
-                   splitting("set Directions = all\n" + parameters));
+    Core<dim>      core(cube<dim>() + splitting(parameters));
     auto          &points = core.points;
     Point<dim>     x;
-    Tensor<1, dim> length;
+    Tensor<1, dim> lengths;
     for (unsigned int d = 0; d < dim; ++d)
-      x[d] = 1.5, length[d] = 0.1;
-    length[0]                               = reference_length;
-    const unsigned int p                    = core.add(x, length);
-    points.data(points.stretch)[p]          = stretch;
-    points.data(points.creation_stretch)[p] = creation_stretch;
-    points.data(points.generation)[p]       = generation;
+      x[d] = 1.5, lengths[d] = 0.1;
+    lengths[0]           = length;
+    const unsigned int p = core.add(x, lengths);
+    core.stretch(p, 0, stretch);
+    points.data(points.length_at_creation)[p] = creation_stretch * length;
+    points.data(points.generation)[p]         = generation;
     core.sort();
     const bool has_split = core.split();
     EXPECT_EQ(has_split, points.size() > 1);
@@ -49,11 +52,10 @@ namespace
   unsigned int
   count_after_at_height(const double y)
   {
-    Core<2>            core(cube<2>() + splitting("set Threshold = 1.1\n"
-                                                  "set Directions = all"));
+    Core<2>            core(cube<2>() + splitting("set Threshold = 1.1"));
     const Tensor<1, 2> length({0.1, 0.9});
     const unsigned int p = core.add(Point<2>(1.5, y), length);
-    core.points.data(core.points.stretch, 1)[p] = 1.2;
+    core.stretch(p, 1, 1.2);
     core.sort();
     core.split();
     core.sort(); // throws if a child is too far outside
@@ -121,8 +123,8 @@ namespace
     // 0.48 m: below 0.7 of the large cell, above 0.7 of the small one.
     for (const Point<2> x : {Point<2>(0.25, 0.25), Point<2>(3.5, 3.5)})
       {
-        const unsigned int p           = core.add(x, Point<2>(0.3, 0.1));
-        points.data(points.stretch)[p] = 1.6;
+        const unsigned int p = core.add(x, Point<2>(0.3, 0.1));
+        core.stretch(p, 0, 1.6);
       }
     core.sort();
     EXPECT_TRUE(core.split());
@@ -147,10 +149,9 @@ namespace
     EXPECT_EQ(count_after<2>("set Maximum generation = 0", 0.6, 1.5), 1u);
     EXPECT_EQ(count_after<2>("set Enabled = false", 0.6, 1.5), 1u);
 
-    Core<2> core(cube<2>() + splitting("set Maximum generation = 2\n"
-                                       "set Directions = all"));
+    Core<2> core(cube<2>() + splitting("set Maximum generation = 2"));
     core.add({1.5, 1.5}, Point<2>(3., 3.));
-    core.points.data(core.points.stretch)[0] = 1.5;
+    core.stretch(0, 0, 1.5);
     core.sort();
     // 4.5 m: one split, then four, then sixteen refusals.
     for (unsigned int n : {4u, 16u, 16u})
@@ -178,7 +179,7 @@ namespace
   {
     Core<2>            core(cube<2>() + splitting(parameters));
     const unsigned int p = core.add(x, Point<2>(length / stretch, 0.4));
-    core.points.data(core.points.stretch)[p]    = stretch;
+    core.stretch(p, 0, stretch);
     core.points.data(core.points.generation)[p] = generation;
     core.sort();
     core.split();
@@ -238,14 +239,13 @@ namespace
   {
     for (const unsigned int budget : {12, 13})
       {
-        Core<2> core(cube<2>() +
-                     splitting(text("set Directions = all\n"
-                                    "set Maximum number of points = ",
-                                    budget)));
+        Core<2> core(
+          cube<2>() +
+          splitting(text("set Maximum number of points = ", budget)));
         for (unsigned int i = 0; i < 3; ++i)
           {
             core.add(Point<2>(0.5 + i, 0.5), Point<2>(0.6, 0.6));
-            core.points.data(core.points.stretch)[i] = (i == 1 ? 1.5 : 1.);
+            core.stretch(i, 0, i == 1 ? 1.5 : 1.);
           }
         core.sort();
         core.splitter.check_total(10., 3.);
@@ -263,13 +263,12 @@ namespace
   TEST(Splitter, BudgetOfPoints)
   {
     const auto enforce = [](const unsigned int budget) {
-      Core<2> core(cube<2>() + splitting(text("set Directions = all\n"
-                                              "set Maximum number of points = ",
-                                              budget)));
+      Core<2> core(cube<2>() +
+                   splitting(text("set Maximum number of points = ", budget)));
       for (unsigned int i = 0; i < 3; ++i)
         {
           core.add(Point<2>(0.5 + i, 0.5), Point<2>(0.6, 0.6));
-          core.points.data(core.points.stretch)[i] = (i == 1 ? 1.5 : 1.);
+          core.stretch(i, 0, i == 1 ? 1.5 : 1.);
         }
       core.sort();
       const std::string message = message_of<ExcPoint>([&]() { core.split(); });
@@ -290,9 +289,41 @@ namespace
 
   // --------------------------------------------------------------- children
 
+  /// F that stretches edge k by stretch[k], otherwise random.
+  template <int dim>
+  Tensor<2, dim>
+  stretching_edges(Core<dim> &core, const Tensor<1, dim> &stretch)
+  {
+    Tensor<2, dim> rows = core.tensor(-0.3, 0.3);
+    for (unsigned int k = 0; k < dim; ++k)
+      {
+        rows[k][k] += 1.;
+        rows[k] *= stretch[k] / rows[k].norm();
+      }
+    return transpose(rows);
+  }
+
+
+
+  /// F = V R with stretches along the axes and a random R.
+  template <int dim>
+  Tensor<2, dim>
+  stretching_axes(Core<dim> &core, const Tensor<1, dim> &stretch)
+  {
+    Tensor<2, dim> F = dealii::project_onto_orthogonal_tensors(
+      core.tensor(-0.5, 0.5) +
+      Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>()));
+    for (unsigned int d = 0; d < dim; ++d)
+      F[d] *= stretch[d];
+    return F;
+  }
+
+
+
   /// A point with id 1 in a random state with columns of both kinds, stretched
-  /// along the axes whose bits are set, and its copy with id 2, which is at the
-  /// generation limit and stays what it is.
+  /// along the edges or axes whose bits are set, and its copy with id 2, which
+  /// is at the generation limit and stays what it is. Cells are squares or
+  /// cubes where shear is counted, as the rule for their boxes demands.
   template <int dim>
   void
   add_parent(Core<dim> &core, const unsigned int axes)
@@ -301,18 +332,25 @@ namespace
     points.add_column("plastic strain", "-", 1, Inheritance::copied);
     points.add_column("heat", "J", 2, Inheritance::divided);
     core.add(core.place(0.5), core.vector(0.2, 0.3));
-    const unsigned int p = core.add(core.place(0.5), core.vector(0.4, 0.5));
+    const BoxRule  rule    = core.transfer.box_shape().rule;
+    const bool     by_axes = rule == BoxRule::left_stretch;
+    Tensor<1, dim> length  = core.vector(0.4, 0.5), stretch;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        length[d]  = by_axes ? length[0] : length[d];
+        stretch[d] = (axes >> d & 1) ? 1.9 : 1.1;
+      }
+    const unsigned int p = core.add(core.place(0.5), length);
     for (const Column &column : points.columns())
       for (unsigned int c = 0; c < column.n_components; ++c)
         if (column.first != points.position && column.first != points.body &&
-            column.first != points.id && column.first != points.generation &&
-            column.first != points.reference_length)
+            column.first != points.id && column.first != points.generation)
           points.data(column.first, c)[p] = core.number(1., 2.);
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        points.data(points.stretch, d)[p] = (axes >> d & 1) ? 1.9 : 1.1;
-        points.data(points.creation_stretch, d)[p] = 1.;
-      }
+    core.set_undeformed(p, length);
+    core.set_deformation(p,
+                         by_axes ? stretching_axes(core, stretch)
+                                 : stretching_edges(core, stretch));
+    update_box_lengths(points, p, p + 1, rule);
     const unsigned int copy = points.append(1);
     points.copy(p, copy);
     points.data(points.id)[copy]         = 2;
@@ -335,38 +373,74 @@ namespace
 
 
 
-  /// Box and place of child @p q. Returns the corner of the parent where it
-  /// lies, a bit per axis.
+  /// Edges and box of child @p q, which were halved in the directions
+  /// @p halved.
   template <int dim>
-  unsigned int
-  expect_box_of_child(const Core<dim>   &core,
-                      const unsigned int parent,
-                      const unsigned int q,
-                      const unsigned int halved_axes)
+  void
+  expect_cell_of_child(const Core<dim>   &core,
+                       const unsigned int parent,
+                       const unsigned int q,
+                       const unsigned int halved)
   {
-    const auto  &points = core.points;
-    unsigned int corner = 0;
+    const auto          &points = core.points;
+    const BoxRule        rule   = core.transfer.box_shape().rule;
+    const Tensor<2, dim> A = core.edges(parent), A_q = core.edges(q);
     for (unsigned int d = 0; d < dim; ++d)
       {
-        const double L0      = points.data(points.reference_length, d)[parent];
-        const double stretch = points.data(points.stretch, d)[parent];
-        const bool   halved  = halved_axes >> d & 1;
-        const double offset  = points.data(points.position, d)[q] -
-                              points.data(points.position, d)[parent];
-        if (offset > 0)
-          corner |= 1u << d;
-        EXPECT_NEAR(std::abs(offset), halved ? 0.25 * stretch * L0 : 0., 1e-15);
-        // The deformation gradient carries the material offset to that now.
-        double carried = 0;
-        for (unsigned int e = 0; e < dim; ++e)
-          carried += points.data(points.deformation_gradient, dim * d + e)[q] *
-                     (points.data(points.initial_position, e)[q] -
-                      points.data(points.initial_position, e)[parent]);
-        EXPECT_NEAR(carried, offset, 1e-14);
-        EXPECT_EQ(points.data(points.reference_length, d)[q],
-                  halved ? 0.5 * L0 : L0);
-        EXPECT_EQ(points.data(points.creation_stretch, d)[q], stretch);
+        const double share = (halved >> d & 1) ? 0.5 : 1.;
+        for (unsigned int i = 0; i < dim; ++i)
+          EXPECT_EQ(A_q[i][d], share * A[i][d]);
+        const double box = points.data(points.box_length, d)[q];
+        if (rule == BoxRule::left_stretch)
+          EXPECT_NEAR(box,
+                      0.5 * points.data(points.box_length, d)[parent],
+                      1e-15);
+        else
+          EXPECT_NEAR(box, A_q[d].norm(), 1e-15);
+        EXPECT_NEAR(points.data(points.length_at_creation, d)[q],
+                    rule == BoxRule::left_stretch ? box
+                                                  : transpose(A_q)[d].norm(),
+                    1e-15);
       }
+  }
+
+
+
+  /// Place of child @p q of a point that was split in the directions @p halved:
+  /// along axes where shear is counted, along edges otherwise. Returns the
+  /// corner of the parent where it lies, a bit per direction.
+  template <int dim>
+  unsigned int
+  expect_place_of_child(const Core<dim>   &core,
+                        const unsigned int parent,
+                        const unsigned int q,
+                        const unsigned int halved)
+  {
+    const auto          &points = core.points;
+    const Tensor<1, dim> offset =
+      core.get(points.position, q) - core.get(points.position, parent);
+    Tensor<2, dim> directions = core.edges(parent);
+    if (core.transfer.box_shape().rule == BoxRule::left_stretch)
+      {
+        directions = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          directions[d][d] = points.data(points.box_length, d)[parent];
+      }
+    const Tensor<1, dim> parts  = invert(directions) * offset;
+    unsigned int         corner = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        EXPECT_NEAR(std::abs(parts[d]), (halved >> d & 1) ? 0.25 : 0., 1e-14);
+        if (parts[d] > 1e-14)
+          corner |= 1u << d;
+      }
+    // The deformation gradient carries the material offset to that now. This
+    // holds for the first split of a point: afterwards the lengths at creation
+    // are those of deformed edges, which no longer tell the stretch of each.
+    const Tensor<1, dim> carried =
+      core.deformation(parent) * (core.get(points.initial_position, q) -
+                                  core.get(points.initial_position, parent));
+    EXPECT_LT((carried - offset).norm(), 1e-14);
     return corner;
   }
 
@@ -385,8 +459,8 @@ namespace
       for (unsigned int c = 0; c < column.n_components; ++c)
         if (column.first != points.position &&
             column.first != points.initial_position &&
-            column.first != points.reference_length &&
-            column.first != points.creation_stretch &&
+            column.first != points.edges && column.first != points.box_length &&
+            column.first != points.length_at_creation &&
             column.first != points.generation && column.first != points.id)
           {
             const bool divided = column.inheritance == Inheritance::divided;
@@ -403,10 +477,11 @@ namespace
   void
   expect_children(const std::string &directions, const unsigned int axes)
   {
-    Core<dim> core(cube<dim>() + splitting("set Maximum generation = 3\n"
-                                           "set Directions = " +
-                                           directions));
-    auto     &points = core.points;
+    Core<dim> core(
+      cube<dim>() + splitting_along(directions) +
+      in_section("Splitting",
+                 "set Minimum length = 0.7\nset Maximum generation = 3"));
+    auto &points = core.points;
     add_parent(core, axes);
     const unsigned int parent = index_of(core, 2), child = index_of(core, 1);
     const unsigned int n_before = points.size();
@@ -420,7 +495,8 @@ namespace
       {
         const unsigned int q = (k == 0 ? child : n_before + k - 1);
         ++ids[points.data(points.id)[q]];
-        ++corners[expect_box_of_child(core, parent, q, mask)];
+        ++corners[expect_place_of_child(core, parent, q, mask)];
+        expect_cell_of_child(core, parent, q, mask);
         expect_state_of_child(core, parent, q, n);
       }
     EXPECT_EQ(corners.size(), n) << "one child in each corner";

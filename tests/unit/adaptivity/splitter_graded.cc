@@ -11,27 +11,22 @@ namespace
   splitting(const std::string &directions, const std::string &threshold)
   {
     return in_section("Splitting",
-                      "set Shear = counted\nset Threshold = " + threshold +
+                      std::string(directions == "all" ? "set Shear = counted\n"
+                                                      : "") +
+                        "set Threshold = " + threshold +
                         "\nset Directions = " + directions);
   }
 
 
 
-  /// A point with a box of these lengths, undeformed so far.
+  /// A point with a box of these lengths at its creation, in a random state.
   template <int dim>
   unsigned int
   add_box(Core<dim> &core, const Point<dim> &x, const Tensor<1, dim> &length)
   {
-    const unsigned int p      = core.add(x, length);
-    auto              &points = core.points;
+    const unsigned int p = core.add(x, length);
     core.randomize(p);
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double stretch                       = core.number(0.5, 2.);
-        points.data(points.stretch, d)[p]          = stretch;
-        points.data(points.creation_stretch, d)[p] = stretch;
-        points.data(points.reference_length, d)[p] /= stretch;
-      }
+    core.set_undeformed(p, length);
     return p;
   }
 
@@ -65,9 +60,7 @@ namespace
   double
   length(const Core<dim> &core, const unsigned int p, const unsigned int d)
   {
-    const auto &points = core.points;
-    return points.data(points.stretch, d)[p] *
-           points.data(points.reference_length, d)[p];
+    return core.points.data(core.points.box_length, d)[p];
   }
 
 
@@ -171,7 +164,7 @@ namespace
       lengths[d] = size * core.number(size < 1. ? 0.82 : 0.45, 0.999);
     lengths[0]           = size * core.number(size < 1. ? 0.82 : 0.71, 0.999);
     const unsigned int p = add_box(core, x, lengths);
-    core.points.data(core.points.creation_stretch)[p] /= 1.6;
+    core.points.data(core.points.length_at_creation)[p] /= 1.6;
     core.sort();
     const auto before = core.scatter();
     ASSERT_TRUE(core.split());

@@ -7,10 +7,42 @@ namespace
   using dealii::Point;
   using dealii::Tensor;
 
+  /// Give point @p p a random deformation from a cube with a box that has
+  /// lengths between @p min and @p max, m.
+  template <int dim>
+  void
+  deform_within(Core<dim>         &core,
+                const unsigned int p,
+                const double       min,
+                const double       max)
+  {
+    auto &points = core.points;
+    bool  fits   = false;
+    while (!fits)
+      {
+        Tensor<1, dim> length;
+        for (unsigned int d = 0; d < dim; ++d)
+          length[d] = (d == 0 ? core.number(min, max) : length[0]);
+        core.set_undeformed(p, length);
+        Tensor<2, dim> F = core.tensor(-0.5, 0.5);
+        for (unsigned int d = 0; d < dim; ++d)
+          F[d][d] += 1.;
+        core.set_deformation(p, F);
+        update_box_lengths(points, p, p + 1, core.transfer.box_shape().rule);
+        fits = core.volume(p) > 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          fits = fits && points.data(points.box_length, d)[p] > min &&
+                 points.data(points.box_length, d)[p] < max;
+      }
+  }
+
+
+
   /// A point in a random state, to be split along x at least, whose box nothing
   /// clips before the split and after: its length is between 0.41 and 1 of its
   /// cell, and where there are smaller and larger cells around, at most half of
-  /// the large ones along axes that may be left as they are.
+  /// the large ones along axes that may be left as they are. Halves of one edge
+  /// fill the box only if edges are parallel to the axes.
   template <int dim>
   void
   add_violating_point(Core<dim> &core, const Point<dim> &x, const bool all_axes)
@@ -21,15 +53,19 @@ namespace
     const double       most   = (mixed && !all_axes) ? 0.495 : 0.99 * size;
     const unsigned int p      = core.add(x, Tensor<1, dim>());
     core.randomize(p);
-    for (unsigned int d = 0; d < dim; ++d)
+    if (all_axes)
+      deform_within(core, p, 0.41, most);
+    else
       {
-        const double stretch              = core.number(0.4, 2.5);
-        points.data(points.stretch, d)[p] = stretch;
-        points.data(points.creation_stretch, d)[p] =
-          stretch / (d == 0 ? 2. : core.number(1., 2.));
-        points.data(points.reference_length, d)[p] =
-          core.number(0.41, most) / stretch;
+        Tensor<1, dim> length;
+        for (unsigned int d = 0; d < dim; ++d)
+          length[d] = core.number(0.41, most);
+        core.set_undeformed(p, length);
       }
+    for (unsigned int d = 0; d < dim; ++d)
+      points.data(points.length_at_creation, d)[p] =
+        points.data(points.box_length, d)[p] /
+        (d == 0 ? 2. : core.number(1., 2.));
   }
 
 
@@ -169,13 +205,14 @@ namespace
     Point<dim> x;
     for (unsigned int d = 0; d < dim; ++d)
       x[d] = 1.6;
-    const unsigned int p = core.add(x, Tensor<1, dim>());
-    core.randomize(p);
+    Tensor<1, dim> length;
     for (unsigned int d = 0; d < dim; ++d)
-      {
-        points.data(points.stretch, d)[p]          = 1.6;
-        points.data(points.reference_length, d)[p] = 0.5;
-      }
+      length[d] = 0.5;
+    const unsigned int p = core.add(x, length);
+    core.randomize(p);
+    core.set_undeformed(p, length);
+    for (unsigned int d = 0; d < dim; ++d)
+      core.stretch(p, d, 1.6);
     core.sort();
     const auto before = core.scatter();
     ASSERT_TRUE(core.split());

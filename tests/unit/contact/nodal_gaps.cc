@@ -104,7 +104,7 @@ namespace nodal_gaps_test
         for (unsigned int p = segment.begin; p < segment.end; ++p)
           {
             const double   h    = core.grid.cells()[segment.cell].size;
-            Tensor<1, dim> half = core.get(core.points.reference_length, p);
+            Tensor<1, dim> half = core.get(core.points.box_length, p);
             for (unsigned int d = 0; d < dim; ++d)
               half[d] = std::clamp(0.5 * half[d], 0.1 * h, 0.5 * h);
             weights_of_point(core.points,

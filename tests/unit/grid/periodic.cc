@@ -146,7 +146,6 @@ namespace
                 continue;
               const unsigned int p = core.add(x, Point<2>(0.5, 0.4));
               core.randomize(p);
-              core.points.data(core.points.stretch)[p] = 1.;
             }
         core.sort();
         std::map<long, NodeSums<2>> row;

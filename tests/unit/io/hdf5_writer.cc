@@ -28,6 +28,10 @@ namespace
     {
       s.points.add_column("yield stress", "Pa", 1, Inheritance::copied);
       s.points.add_column("two things", "m", 5, Inheritance::copied);
+      s.points.add_column("deformation gradient",
+                          "-",
+                          ColumnKind::deformation,
+                          Inheritance::copied);
       for (unsigned int p = 0; p < 2; ++p)
         {
           dealii::Point<dim> x;
@@ -36,11 +40,17 @@ namespace
           s.add(x);
         }
       for (const Column &column : s.points.columns())
-        if (column.first != s.points.position && column.first != s.points.id)
+        if (column.first != s.points.position && column.first != s.points.id &&
+            column.first != s.points.edges)
           for (unsigned int c = 0; c < column.n_components; ++c)
             for (unsigned int p = 0; p < 2; ++p)
               s.points.data(column.first, c)[p] =
                 0.7 + column.first + 0.1 * c + 0.3 * p;
+      // Boxes are drawn by their edges.
+      for (unsigned int p = 0; p < 2; ++p)
+        for (unsigned int d = 0; d < dim; ++d)
+          s.points.data(s.points.edges, d * (dim + 1))[p] =
+            s.points.data(s.points.box_length, d)[p];
     }
 
     template <int dim>
@@ -90,9 +100,12 @@ namespace
     expect_tensors(const Points<dim> &points, const fs::path &file)
     {
       const auto stress = read_dataset<float>(file, "fields/stress");
+      const auto A      = read_dataset<float>(file, "fields/edges");
       const auto F = read_dataset<float>(file, "fields/deformation gradient");
       EXPECT_EQ(stress.extent, std::vector<hsize_t>({2, 9}));
+      EXPECT_EQ(A.extent, std::vector<hsize_t>({2, 9}));
       EXPECT_EQ(F.extent, std::vector<hsize_t>({2, 9}));
+      const unsigned int deformation = points.find("deformation gradient");
       // xx, yy, zz, xy, xz, yz
       const unsigned int component[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
       for (unsigned int p = 0; p < 2; ++p)
@@ -105,10 +118,13 @@ namespace
                         c < n_stress_components<dim>
                           ? float(points.data(points.stress, c)[p])
                           : 0.f);
+              EXPECT_EQ(A.values[9 * p + 3 * i + j],
+                        in_space
+                          ? float(points.data(points.edges, dim * i + j)[p])
+                          : 0.f);
               EXPECT_EQ(F.values[9 * p + 3 * i + j],
                         in_space
-                          ? float(points.data(points.deformation_gradient,
-                                              dim * i + j)[p])
+                          ? float(points.data(deformation, dim * i + j)[p])
                           : float(i == j));
             }
     }
@@ -230,21 +246,22 @@ namespace
     Scene<2> s("0, 0", "8, 4");
     add_points(s);
     s.constants.box_shape.rule = BoxRule::convected_domain;
-    const Matrix<2, double> F{{{{{0.25, -1.5}}, {{1., 0.5}}}}};
+    const Matrix<2, double> A{{{{{0.125, -0.75}}, {{0.5, 0.25}}}}};
     for (unsigned int p = 0; p < 2; ++p)
-      store_matrix(s.points, s.points.deformation_gradient, p, F);
-    const fs::path file       = write(s, /*boxes_as_cells=*/true);
-    const auto     x          = read_dataset<float>(file, "mesh/vertices");
-    const auto     cells      = read_dataset<std::int64_t>(file, "mesh/cells");
-    const int      sign[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+      store_matrix(s.points, s.points.edges, p, A);
+    update_box_lengths(s.points, 0, 2, s.constants.box_shape.rule);
+    const fs::path file = write(s, /*boxes_as_cells=*/true);
+    expect_tensors(s.points, file);
+    const auto x          = read_dataset<float>(file, "mesh/vertices");
+    const auto cells      = read_dataset<std::int64_t>(file, "mesh/cells");
+    const int  sign[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
     for (unsigned int p = 0; p < 2; ++p)
       for (unsigned int v = 0; v < 4; ++v)
         for (unsigned int d = 0; d < 2; ++d)
           {
             double expected = s.points.data(s.points.position, d)[p];
             for (unsigned int e = 0; e < 2; ++e)
-              expected += 0.5 * sign[v][e] * F[d][e] *
-                          s.points.data(s.points.reference_length, e)[p];
+              expected += 0.5 * sign[v][e] * A[d][e];
             EXPECT_FLOAT_EQ(x.values.at(3 * cells.values[p * 4 + v] + d),
                             expected);
           }

@@ -136,7 +136,7 @@ namespace
     Scene<2> s("0, 0", "8, 4");
     add_points(s);
     s.points.data(s.points.initial_position, 0)[1] = 1.;
-    s.points.data(s.points.stretch, 1)[1]          = 3.;
+    s.stretch(1, 1, 3.);
     write_points(s, folder / "p.vtu");
     Vtu vtu = read_vtu(folder / "p.vtu");
     EXPECT_EQ(vtu.n_points, 2u);
@@ -149,13 +149,11 @@ namespace
     const std::map<std::string, unsigned int> expected = {
       {"position [m]", 3},
       {"velocity [m/s]", 3},
-      {"deformation gradient", 9},
+      {"edges [m]", 9},
       {"stress [Pa]", 9},
       {"mass [kg]", 1},
       {"reference volume [m^2]", 1},
-      {"reference length [m]", 3},
-      {"stretch", 3},
-      {"creation stretch", 3},
+      {"length at creation [m]", 3},
       {"initial position [m]", 3},
       {"elastic energy [J]", 1},
       {"plastic work [J]", 1},
@@ -181,15 +179,17 @@ namespace
     EXPECT_EQ(vtu.values["velocity [m/s]"], V({1, 1, 0, -3, -3, 0}));
     EXPECT_EQ(vtu.values["displacement [m]"], V({0, 0, 0, 0.5, 0, 0}));
     EXPECT_EQ(vtu.values["box length [m]"], V({0.5, 0.5, 0, 0.5, 1.5, 0}));
-    // xx, yy, zz, xy = 1, 2, 3, 4; the deformation is none.
+    // xx, yy, zz, xy = 1, 2, 3, 4.
     const V stress = {0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 4, 0, 4, 2, 0, 0, 0, 3};
     EXPECT_EQ(vtu.values["stress [Pa]"], stress);
-    const V F = {1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0, 0, 0, 1};
-    EXPECT_EQ(vtu.values["deformation gradient"], F);
+    const V A = {0.5, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 1.5, 0, 0, 0, 0};
+    EXPECT_EQ(vtu.values["edges [m]"], A);
+    EXPECT_EQ(vtu.values["length at creation [m]"],
+              V({0.5, 0.5, 0, 0.5, 0.5, 0}));
     EXPECT_EQ(vtu.values["mean stress [Pa]"], V({0, 2}));
     // sqrt(3/2 s:s) with s = diag(-1, 0, 1) and 4 off the diagonal.
     EXPECT_FLOAT_EQ(vtu.values["von Mises stress [Pa]"][1], std::sqrt(51.));
-    EXPECT_EQ(vtu.values["J"], V({1, 1}));
+    EXPECT_EQ(vtu.values["J"], V({1, 3}));
   }
 
 
@@ -226,7 +226,7 @@ namespace
   {
     Scene<2> s("0, 0", "8, 4");
     add_points(s);
-    s.points.data(s.points.stretch, 1)[1] = 3.;
+    s.stretch(1, 1, 3.);
     PointsOutput<2> output;
     output.begin({folder, "vtu", /*boxes_as_cells=*/true}, s);
     output.write(s);

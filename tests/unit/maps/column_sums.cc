@@ -116,8 +116,8 @@ namespace column_sums_test
     void
     resize(const unsigned int p, const double height)
     {
-      points.data(points.reference_volume)[p] = 0.8 * height;
-      points.data(points.mass)[p]             = 2000. * 0.8 * height;
+      points.data(points.edges, 3)[p] = height; // y of edge 1
+      points.data(points.mass)[p]     = 2000. * 0.8 * height;
     }
 
     ColumnSums<2> sums;

@@ -11,13 +11,13 @@
 #include <algorithm>
 #include <cmath>
 
-using namespace dealii;
+using dealii::Point;
 using namespace talus;
 
 namespace
 {
   constexpr double a = 6378137., e2 = 6.69437999014e-3; // WGS 84, m and -
-  constexpr double radian = numbers::PI / 180.;
+  constexpr double radian = dealii::numbers::PI / 180.;
 
   /// Radius of curvature along the meridian, m; latitude in degrees.
   double
@@ -117,7 +117,8 @@ TEST(GeographicMotion, ValuesAndVolumeOfAHill)
           }
       // Linear interpolation is wrong by h^2/8 times the second derivatives.
       EXPECT_LT(largest_error, 0.06);
-      EXPECT_NEAR(volume / (6. * numbers::PI * std::pow(400. / 0.9996, 2)),
+      EXPECT_NEAR(volume /
+                    (6. * dealii::numbers::PI * std::pow(400. / 0.9996, 2)),
                   1.,
                   2e-3);
     }
@@ -150,5 +151,5 @@ TEST(GeographicMotion, AcrossTheDateLine)
 
 TEST(GeographicMotion, UnknownMap)
 {
-  EXPECT_THROW(on_degrees(hill(5.), "EPSG:999999"), ExceptionBase);
+  EXPECT_THROW(on_degrees(hill(5.), "EPSG:999999"), dealii::ExceptionBase);
 }

@@ -47,10 +47,7 @@ namespace runout_rows_test
       : Scene<2>("0, 0", "12, 4")
     {
       for (const double x : {1.5, 2.5})
-        {
-          const unsigned int p = add({x, 0.5}, 1., {2., -1.});
-          points.data(points.reference_volume)[p] = 0.25;
-        }
+        add({x, 0.5}, 1., {2., -1.});
       sort();
     }
 
@@ -121,7 +118,7 @@ TEST_F(RunoutTest, WithoutThickSoilFieldsAreEmpty)
   runout.start(soil);
   soil.move(3.);
   for (unsigned int p = 0; p < soil.points.size(); ++p)
-    soil.points.data(soil.points.reference_volume)[p] = 0.05;
+    soil.points.data(soil.points.edges, 3)[p] = 0.1; // y of edge 1: 0.05 m^2
   runout.observe(soil);
   const Row row = last_row();
   EXPECT_EQ(row, (Row{"1", "", "", "", "3", "2", "0", "0"}));

@@ -104,7 +104,7 @@ namespace
     statistics.add_source([&](const State<2> &state, Quantities &list) {
       splitter.list_quantities(state, list);
     });
-    s.points.data(s.points.stretch, 1)[1] = 3.;
+    s.stretch(1, 1, 3.);
     s.sort();
     statistics.begin({folder}, s);
     statistics.start(s);
@@ -255,12 +255,6 @@ namespace
     s.add({2.25, 0.5}, 1., {1., 9.});
     s.add({2.875, 1.5}, 4., {3., 9.});
     s.add({4.5, 0.25}, 1., {-1., 9.});
-    for (unsigned int p = 0; p < 3; ++p)
-      {
-        s.points.data(s.points.stretch, 1)[p]          = 2.;
-        s.points.data(s.points.reference_length, 1)[p] = 0.25;
-        s.points.data(s.points.reference_volume)[p]    = 0.25;
-      }
     Profile<2> profile;
     profile.begin({folder}, s);
     s.time = 0.5;
@@ -276,8 +270,9 @@ namespace
 
     // After a quarter of a turn what was along x, 0.5 m, is along y.
     s.constants.box_shape.rule = BoxRule::convected_domain;
-    const Matrix<2, double> quarter_turn{{{{{0., -1.}}, {{1., 0.}}}}};
-    store_matrix(s.points, s.points.deformation_gradient, 2, quarter_turn);
+    const Matrix<2, double> turned{{{{{0., -0.25}}, {{0.5, 0.}}}}};
+    store_matrix(s.points, s.points.edges, 2, turned);
+    update_box_lengths(s.points, 0, 3, s.constants.box_shape.rule);
     EXPECT_EQ(find_profile(s, on_bottom(s)).at(2).highest, 0.5);
   }
 
@@ -313,8 +308,6 @@ namespace
     Scene<3> s("0, 0, 0", "8, 4, 4");
     s.add({2.5, 0.5, 3.5}, 1., {1., 9., 5.});
     s.add({2.5, 0.5, 1.5}, 1., {2., 9., 6.});
-    for (unsigned int p = 0; p < 2; ++p)
-      s.points.data(s.points.reference_volume)[p] = 0.125;
     Profile<3> profile;
     profile.begin({folder}, s);
     profile.observe(s);
@@ -337,8 +330,6 @@ namespace
     s.add({2., 0.5, 3.});
     s.add({0., 0.5, 3.875});
     s.add({9., 0.5, 1.5});
-    for (unsigned int p = 0; p < 3; ++p)
-      s.points.data(s.points.reference_volume)[p] = 0.125;
     const auto profile = find_profile(s, on_bottom(s));
     ASSERT_EQ(profile.size(), 6u);
     const std::vector<double> mass = {1., 0.25, 0.25, 0.25, 0.25, 1.};

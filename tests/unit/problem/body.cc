@@ -106,11 +106,9 @@ namespace
         EXPECT_EQ(all.get(points.initial_position, p),
                   all.get(points.position, p));
         EXPECT_EQ(all.get(points.velocity, p), (Tensor<1, 2>()));
-        EXPECT_EQ(all.get(points.reference_length, p), Point<2>(0.5, 0.5));
-        EXPECT_EQ(all.get(points.stretch, p), Point<2>(1., 1.));
-        EXPECT_EQ(all.get(points.creation_stretch, p), Point<2>(1., 1.));
-        EXPECT_EQ(determinant(all.deformation(p)), 1.);
-        EXPECT_EQ(trace(all.deformation(p)), 2.);
+        EXPECT_EQ(all.get(points.box_length, p), Point<2>(0.5, 0.5));
+        EXPECT_EQ(all.get(points.length_at_creation, p), Point<2>(0.5, 0.5));
+        EXPECT_EQ(all.edges(p), (Tensor<2, 2>({{0.5, 0.}, {0., 0.5}})));
         EXPECT_EQ(points.data(points.body)[p], 0.);
       }
     EXPECT_DOUBLE_EQ(sum_x / points.size(), 2.);
@@ -128,7 +126,13 @@ namespace
     ASSERT_EQ(points.size(), 4 * 6);
     EXPECT_NEAR(all.sum(points.reference_volume), 4., 1e-14);
     EXPECT_NEAR(all.sum(points.mass), 4. * density, 1e-10);
-    EXPECT_EQ(all.get(points.reference_length, 7), Point<3>(0.5, 1. / 3., 1.));
+    for (const unsigned int column :
+         {points.box_length, points.length_at_creation})
+      EXPECT_EQ(all.get(column, 7), Point<3>(0.5, 1. / 3., 1.));
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int k = 0; k < 3; ++k)
+        EXPECT_EQ(all.edges(7)[i][k],
+                  i == k ? all.get(points.box_length, 7)[k] : 0.);
   }
 
 
@@ -291,8 +295,8 @@ namespace
           {
             EXPECT_NEAR(y, 0.5 * (0.5 + 1.05), 1e-4);
             EXPECT_NEAR(points.data(points.reference_volume)[p], 0.275, 1e-4);
-            EXPECT_NEAR(all.get(points.reference_length, p)[0], 0.5, 2e-3);
-            EXPECT_NEAR(all.get(points.reference_length, p)[1], 0.55, 2e-3);
+            EXPECT_NEAR(all.edges(p)[0][0], 0.5, 2e-3);
+            EXPECT_NEAR(all.edges(p)[1][1], 0.55, 2e-3);
           }
       }
     // Soil that is thin everywhere stays as it is.

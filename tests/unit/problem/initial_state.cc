@@ -35,6 +35,7 @@ namespace initial_state_test
       materials.add_columns(points);
       for (unsigned int i = 0; i < 20; ++i)
         add(place(1.), Point<2>(0.5, 0.25), /*body=*/i % 2);
+      materials.of_body(0).initialize(points, 0, points.size());
     }
 
     void
@@ -110,14 +111,14 @@ TEST(InitialState, StretchOfTheBoxes)
   turned.deform(BoxRule::second_moments);
   for (unsigned int p = 0; p < stretched.points.size(); ++p)
     for (const unsigned int column :
-         {stretched.points.stretch, stretched.points.creation_stretch})
+         {stretched.points.box_length, stretched.points.length_at_creation})
       {
-        EXPECT_LT((stretched.get(column, p) - Point<2>(1.2, 0.9)).norm(),
+        EXPECT_LT((stretched.get(column, p) - Point<2>(0.6, 0.225)).norm(),
                   1e-11);
       }
-  const unsigned int at_creation = turned.points.creation_stretch;
+  const unsigned int at_creation = turned.points.length_at_creation;
   for (unsigned int p = 0; p < turned.points.size(); ++p)
-    EXPECT_LT((turned.get(at_creation, p) - Point<2>(1., 1.)).norm(), 1e-11);
+    EXPECT_LT((turned.get(at_creation, p) - Point<2>(0.5, 0.25)).norm(), 1e-11);
 }
 
 

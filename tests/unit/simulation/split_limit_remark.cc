@@ -11,13 +11,13 @@ TEST(SplitLimitRemark, PointsThatCannotBeSplitAreToldOnce)
   using dealii::Point;
   Core<2> core(cube<2>() +
                in_section("Splitting",
-                          "set Shear = counted\n"
+                          "set Shear = counted\nset Directions = all\n"
                           "set Minimum length = 0\nset Threshold = 1.5\n"
                           "set Maximum generation = 2"));
   core.constants.box_shape = core.transfer.box_shape();
   const auto add           = [&](const double x, const double generation) {
     const unsigned int p = core.add(Point<2>(x, 1.5), Point<2>(0.6, 0.6));
-    core.points.data(core.points.stretch)[p]    = 1.6;
+    core.stretch(p, 0, 1.6);
     core.points.data(core.points.generation)[p] = generation;
   };
   add(1.5, 1.);

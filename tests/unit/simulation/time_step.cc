@@ -41,7 +41,7 @@ namespace
     add(const Point<dim> &x, const Tensor<1, dim> &length)
     {
       const unsigned int p        = Statics<dim>::add(x, length);
-      points.data(points.mass)[p] = rho; // of 1 m^dim
+      points.data(points.mass)[p] = rho * this->volume(p);
       return p;
     }
 
@@ -187,7 +187,7 @@ namespace
     soil.points.data(soil.points.velocity)[p] =
       std::numeric_limits<double>::quiet_NaN();
     EXPECT_TRUE(contains(message_of<ExcPoint>([&] { soil.step(); }),
-                         "stretch are not finite and positive at point 0"));
+                         "box length are not finite and positive at point 0"));
   }
 
 

@@ -18,8 +18,9 @@ namespace
   void
   expect_polar_decomposition()
   {
-    Core<dim> core(cube<dim>());
-    auto     &points = core.points;
+    Core<dim>    core(cube<dim>());
+    auto        &points = core.points;
+    const double length = 0.7; // of squares or cubes
     points.append(n_points);
     for (unsigned int round = 0; round < 50; ++round)
       {
@@ -29,7 +30,7 @@ namespace
             do
               F[p] = core.tensor(-2., 2.);
             while (determinant(F[p]) < 0.05);
-            core.set_deformation(p, F[p]);
+            core.set(points.edges, p, length * F[p]);
           }
         const auto expect_diagonal = [&](const auto &factor) {
           for (unsigned int p = 0; p < n_points; ++p)
@@ -37,12 +38,12 @@ namespace
               const auto R = dealii::project_onto_orthogonal_tensors(F[p]);
               ASSERT_GT(determinant(R), 0.);
               for (unsigned int d = 0; d < dim; ++d)
-                EXPECT_NEAR(points.data(points.stretch, d)[p],
+                EXPECT_NEAR(points.data(points.box_length, d)[p] / length,
                             factor(F[p], transpose(R))[d][d],
                             1e-13);
             }
         };
-        update_stretch(points, 0, points.size(), BoxRule::left_stretch);
+        update_box_lengths(points, 0, points.size(), BoxRule::left_stretch);
         expect_diagonal([](const auto &F, const auto &R_T) { return F * R_T; });
       }
   }
@@ -67,10 +68,8 @@ namespace
       [&](const double L_x, const double L_y, const Tensor<2, 2> &F) {
         const unsigned int p = core.add({1.5, 1.5}, dealii::Point<2>(L_x, L_y));
         core.set_deformation(p, F);
-        update_stretch(points, p, p + 1, BoxRule::second_moments);
-        return Tensor<1, 2>(
-          {edge_of_box(points, BoxRule::second_moments, 0, p)[0],
-           edge_of_box(points, BoxRule::second_moments, 1, p)[1]});
+        update_box_lengths(points, p, p + 1, BoxRule::second_moments);
+        return core.get(points.box_length, p);
       };
     const auto expect =
       [](const Tensor<1, 2> &l, const double x, const double y) {
@@ -84,13 +83,71 @@ namespace
 
 
 
+  /// A random cell with its box, and a second one whose cell is deformed
+  /// before its creation: the smallest box around the corners.
+  template <int dim>
+  void
+  expect_extents()
+  {
+    Core<dim>     core(cube<dim>());
+    auto         &points = core.points;
+    const BoxRule rule   = BoxRule::convected_domain;
+    for (unsigned int i = 0; i < n_points; ++i)
+      {
+        core.add(core.place(), core.vector(0.2, 0.5));
+        core.set_deformation(i,
+                             core.tensor(-0.5, 0.5) +
+                               Tensor<2, dim>(
+                                 dealii::unit_symmetric_tensor<dim>()));
+      }
+    const Tensor<1, dim> before = core.get(points.length_at_creation, 0);
+    update_box_lengths(points, 0, n_points, rule);
+    EXPECT_EQ(core.get(points.length_at_creation, 0), before);
+    for (const bool begins : {false, true})
+      {
+        if (begins)
+          begin_stretch(points, 0, n_points, rule);
+        for (unsigned int p = 0; p < n_points; ++p)
+          {
+            Tensor<1, dim> farthest;
+            for (unsigned int v = 0; v < (1u << dim); ++v)
+              {
+                Tensor<1, dim> signs;
+                for (unsigned int k = 0; k < dim; ++k)
+                  signs[k] = (v >> k & 1) ? 0.5 : -0.5;
+                const Tensor<1, dim> corner = core.edges(p) * signs;
+                for (unsigned int d = 0; d < dim; ++d)
+                  farthest[d] = std::max(farthest[d], corner[d]);
+              }
+            const auto box = core.get(points.box_length, p);
+            EXPECT_LT((box - 2. * farthest).norm(), 1e-15);
+            // The splitter looks at the edges, not at the box around them.
+            if (begins)
+              for (unsigned int k = 0; k < dim; ++k)
+                EXPECT_NEAR(points.data(points.length_at_creation, k)[p],
+                            transpose(core.edges(p))[k].norm(),
+                            1e-15);
+          }
+      }
+  }
+
+
+
+  TEST(BoxRule, ExtentsOfConvectedDomains)
+  {
+    expect_extents<2>();
+    expect_extents<3>();
+  }
+
+
+
   TEST(BoxRule, HalfLengthsAreClipped)
   {
     Core<2>    core(cube<2>());
     const auto half = [&](const double length, const double stretch) {
       const BoxShape     shape;
       const unsigned int p = core.add({1.5, 1.5}, dealii::Point<2>(9., length));
-      core.points.data(core.points.stretch, 1)[p] = stretch;
+      core.stretch(p, 1, stretch);
       // Cells of 2 m.
       return half_length_in_cells<2>(core.points, shape, 1, p, 0.5);
     };
@@ -110,7 +167,7 @@ namespace
                          const double            stretch_x,
                          const double            length_y) {
       const unsigned int p = core.add(x, dealii::Point<2>(length_x, length_y));
-      core.points.data(core.points.stretch)[p] = stretch_x;
+      core.stretch(p, 0, stretch_x);
     };
     // Half-sizes from 0.1 to 0.5 of a cell of 1 m, the ends included.
     add({2.5, 2.5}, 0.5, 1., 1.);

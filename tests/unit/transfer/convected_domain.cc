@@ -61,7 +61,7 @@ namespace
     const unsigned int p = core.add(x, length);
     core.randomize(p);
     core.set_deformation(p, F);
-    initialize_stretch(core.points, p, p + 1, BoxRule::convected_domain);
+    begin_stretch(core.points, p, p + 1, BoxRule::convected_domain);
     return p;
   }
 
@@ -225,10 +225,8 @@ namespace
                                  core.vector(0.4, 0.8),
                                  random_deformation(core, 0.2));
         ASSERT_EQ(domain_of(core, p).n_clipped(), 0u);
-        const Tensor<2, 2> F  = core.deformation(p);
-        const Tensor<1, 2> L0 = core.get(core.points.reference_length, p);
-        const Tensor<1, 2> r1 = L0[0] * transpose(F)[0];
-        const Tensor<1, 2> r2 = L0[1] * transpose(F)[1];
+        const Tensor<1, 2> r1 = transpose(core.edges(p))[0];
+        const Tensor<1, 2> r2 = transpose(core.edges(p))[1];
         const Point<2>     x(core.get(core.points.position, p));
         Weights<2>         expected;
         for (unsigned int n = 0; n < places.size(); ++n)
@@ -384,11 +382,11 @@ namespace
       {
         Core<dim> core(cube<dim>() + convected + splitting_along("all"));
         core.random.seed(i);
-        const auto p                                      = add_point(core,
+        const auto p = add_point(core,
                                  core.place(1.),
                                  core.vector(0.5, 0.7),
                                  random_deformation(core, 0.1));
-        core.points.data(core.points.creation_stretch)[p] = 0.5;
+        core.points.data(core.points.length_at_creation)[p] *= 0.5;
         ASSERT_EQ(domain_of(core, p).n_clipped(), 0u);
         const auto   expected = tiling(core, p);
         const double volume   = core.volume(p);
@@ -447,11 +445,11 @@ namespace
         core.random.seed(i);
         if (hanging_nodes)
           refine_corner(core);
-        const auto p                                      = add_point(core,
+        const auto p = add_point(core,
                                  core.place(1.),
                                  core.vector(0.5, 0.6),
                                  random_deformation(core, 0.2));
-        core.points.data(core.points.creation_stretch)[p] = 0.5;
+        core.points.data(core.points.length_at_creation)[p] *= 0.5;
         core.sort();
         const auto before = totals(core);
         ASSERT_TRUE(core.split());

@@ -94,8 +94,7 @@ namespace
           for (unsigned int d = 0; d < dim; ++d)
             volume *= point.length[d];
           const unsigned int p = this->add(point.x, point.length);
-          this->points.data(this->points.mass)[p]             = 1600. * volume;
-          this->points.data(this->points.reference_volume)[p] = volume;
+          this->points.data(this->points.mass)[p] = 1600. * volume;
           this->set(this->points.velocity, p, u);
         }
     }

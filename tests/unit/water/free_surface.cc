@@ -60,8 +60,6 @@ namespace
             continue;
           const unsigned int p                    = this->add(now, length);
           this->points.data(this->points.mass)[p] = 1600. * std::pow(size, dim);
-          this->points.data(this->points.reference_volume)[p] =
-            std::pow(size, dim);
           this->set(this->points.velocity, p, velocity(now));
         }
       this->sort();

@@ -131,7 +131,7 @@ namespace hydroplaning_test
     layer.move(0., 8., 0.75 * limiting_speed);
     layer.expect_reduced(1., 0.);
     for (unsigned int p = 0; p < layer.points.size(); ++p)
-      layer.points.data(layer.points.stretch, 1)[p] *= 0.5;
+      layer.points.data(layer.points.box_length, 1)[p] *= 0.5;
     for (unsigned int p = 0; p < layer.points.size(); ++p)
       layer.points.data(layer.points.mass)[p] *= 0.5;
     layer.expect_reduced(3.5, 4.);
