@@ -22,7 +22,9 @@ namespace
     {
       // The splitter's parameters, which share the section, stay.
       dealii::ParameterAcceptor::prm.parse_input_from_string(
-        in_section("Splitting", "set Merge = all\n" + of_merging));
+        in_section("Splitting",
+                   "set Merge = all\nset Merge volume fraction = 0\n" +
+                     of_merging));
       dealii::ParameterAcceptor::parse_all_parameters();
     }
 

@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <cmath>
 
-using namespace dealii;
+using dealii::ExceptionBase;
+using dealii::Point;
+namespace numbers = dealii::numbers;
 using namespace talus;
 
 namespace
