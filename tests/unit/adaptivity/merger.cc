@@ -72,7 +72,7 @@ namespace
 
   TEST(Merger, LengthIsLimitedAlongTheAxis)
   {
-    const double most = 0.45; // of cells of 1 m
+    const double most = 0.5; // of cells of 1 m
     for (const double side : {0.1, 0.4})
       {
         const double l = 0.5 * most, more = l * (1. + 1e-9);
@@ -267,7 +267,7 @@ namespace
       contains(message("set Shear = counted"), "'Splitting/Merge = false'"));
     const std::string refused = message("set Minimum length = 0.55");
     for (const std::string part :
-         {"'Splitting/Merge length' is 0.45", "0.55 cells", "at most 0.44"})
+         {"'Splitting/Merge length' is 0.5", "0.55 cells", "at most 0.44"})
       EXPECT_TRUE(contains(refused, part)) << refused;
   }
 
