@@ -261,7 +261,7 @@ namespace
       });
     };
     EXPECT_EQ(message(""), "");
-    EXPECT_EQ(message("set Minimum length = 0.5625"), "");
+    EXPECT_EQ(message("set Minimum length = 0.625"), "");
     EXPECT_EQ(message("set Enabled = false\nset Minimum length = 0"), "");
     EXPECT_TRUE(
       contains(message("set Shear = counted"), "'Splitting/Merge = false'"));
