@@ -138,11 +138,12 @@ namespace talus
                unsigned int          q,
                const JointCell<dim> &joint);
 
-    std::string  merge_     = "true";
-    bool         enabled_   = true;
-    unsigned int interval_  = 100;
-    double       length_    = 0.45;
-    double       tolerance_ = 0.15;
+    std::string  merge_           = "true";
+    bool         enabled_         = true;
+    unsigned int interval_        = 100;
+    double       length_          = 0.5;
+    double       tolerance_       = 0.15;
+    double       volume_fraction_ = 0.6;
 
     /// Whether the points of a body stay: the stress of a hyperelastic law is a
     /// function of F, and joint edges would change F.

@@ -23,7 +23,9 @@ namespace
     {
       // The splitter's parameters, which share the section, stay.
       dealii::ParameterAcceptor::prm.parse_input_from_string(
-        in_section("Splitting", "set Merge = all\n" + of_merging));
+        in_section("Splitting",
+                   "set Merge = all\nset Merge volume fraction = 0\n" +
+                     of_merging));
       dealii::ParameterAcceptor::parse_all_parameters();
     }
 
@@ -71,7 +73,7 @@ namespace
 
   TEST(Merger, LengthIsLimitedAlongTheAxis)
   {
-    const double most = 0.45; // of cells of 1 m
+    const double most = 0.5; // of cells of 1 m
     for (const double side : {0.1, 0.4})
       {
         const double l = 0.5 * most, more = l * (1. + 1e-9);
@@ -297,13 +299,13 @@ namespace
       });
     };
     EXPECT_EQ(message(""), "");
-    EXPECT_EQ(message("set Minimum length = 0.5625"), "");
+    EXPECT_EQ(message("set Minimum length = 0.625"), "");
     EXPECT_EQ(message("set Enabled = false\nset Minimum length = 0"), "");
     EXPECT_TRUE(contains(message("set Shear = counted\nset Directions = all"),
                          "'Splitting/Merge = false'"));
     const std::string refused = message("set Minimum length = 0.55");
     for (const std::string part :
-         {"'Splitting/Merge length' is 0.45", "0.55 cells", "at most 0.44"})
+         {"'Splitting/Merge length' is 0.5", "0.55 cells", "at most 0.44"})
       EXPECT_TRUE(contains(refused, part)) << refused;
   }
 

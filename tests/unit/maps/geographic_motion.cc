@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <cmath>
 
+using dealii::ExceptionBase;
 using dealii::Point;
+namespace numbers = dealii::numbers;
 using namespace talus;
 
 namespace
