@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/assertion.h>
 #include <talus/base/errors.h>
+#include <talus/points/points_kernel.h>
 #include <talus/simulation/explicit_scheme.h>
 #include <talus/simulation/null_space_filter.h>
 #include <talus/transfer/edge_reduction.h>
@@ -64,6 +65,33 @@ namespace talus
                                           }),
                             state.communicator());
       return std::abs(of_nodes - of_points) <= 1e-12 * of_points;
+    }
+
+
+
+    /// Largest norm of the velocity gradient of the points of a batch, 1/s.
+    template <int dim>
+    double
+    largest_gradient(const StepWorkspace<dim> &workspace, const Batch &batch)
+    {
+      double largest = 0;
+      for_each_simd(
+        0,
+        batch.end - batch.begin,
+        [&](const unsigned int k, auto number) TALUS_INLINE_LAMBDA {
+          using Number = decltype(number);
+          Number square(0.);
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int j = 0; j < dim; ++j)
+              {
+                const auto L =
+                  load<Number>(workspace.velocity_gradient(i, j) + k);
+                square += L * L;
+              }
+          for (unsigned int n = 0; n < sizeof(Number) / sizeof(double); ++n)
+            largest = std::max(largest, square[n]);
+        });
+      return std::sqrt(largest);
     }
   } // namespace
 
@@ -148,7 +176,7 @@ namespace talus
     problem_.loading.update(state_.points, state_.time);
     state_.nodes.clear();
     timer_.lap(PhaseTimer::points_to_grid);
-    time_step_.begin();
+    time_step_.begin(state_.max_velocity_gradient);
     groups_.clear();
     state_.points.for_each_batch([this](const Batch &batch) {
       state_.workspace.reinit(batch.begin, batch.end);
@@ -244,6 +272,7 @@ namespace talus
                             state_.time,
                             state_.time + dt);
     groups_.rewind();
+    state_.max_velocity_gradient = 0;
     const BoxRule rule         = transfer_.box_shape().rule;
     double       &gravity_work = state_.accounts.energy("gravity work");
     state_.points.for_each_batch([&](const Batch &batch) {
@@ -257,6 +286,9 @@ namespace talus
       transfer_.apply_bbar_to_dilatation(state_.points,
                                          state_.workspace,
                                          batch);
+      state_.max_velocity_gradient =
+        std::max(state_.max_velocity_gradient,
+                 largest_gradient(state_.workspace, batch));
       timer_.lap(PhaseTimer::grid_to_points);
       problem_.materials.set_cell_sizes(state_.points,
                                         batch,
