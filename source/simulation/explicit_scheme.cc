@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/assertion.h>
 #include <talus/base/errors.h>
+#include <talus/points/points_kernel.h>
 #include <talus/simulation/explicit_scheme.h>
 #include <talus/simulation/null_space_filter.h>
 #include <talus/transfer/box_rule.h>
@@ -65,6 +66,33 @@ namespace talus
                                           }),
                             state.communicator());
       return std::abs(of_nodes - of_points) <= 1e-12 * of_points;
+    }
+
+
+
+    /// Largest norm of the velocity gradient of the points of a batch, 1/s.
+    template <int dim>
+    double
+    largest_gradient(const StepWorkspace<dim> &workspace, const Batch &batch)
+    {
+      double largest = 0;
+      for_each_simd(
+        0,
+        batch.end - batch.begin,
+        [&](const unsigned int k, auto number) TALUS_INLINE_LAMBDA {
+          using Number = decltype(number);
+          Number square(0.);
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int j = 0; j < dim; ++j)
+              {
+                const auto L =
+                  load<Number>(workspace.velocity_gradient(i, j) + k);
+                square += L * L;
+              }
+          for (unsigned int n = 0; n < sizeof(Number) / sizeof(double); ++n)
+            largest = std::max(largest, square[n]);
+        });
+      return std::sqrt(largest);
     }
   } // namespace
 
@@ -149,7 +177,7 @@ namespace talus
     problem_.loading.update(state_.points, state_.time);
     state_.nodes.clear();
     timer_.lap(PhaseTimer::points_to_grid);
-    time_step_.begin();
+    time_step_.begin(state_.max_velocity_gradient);
     groups_.clear();
     state_.points.for_each_batch([this](const Batch &batch) {
       state_.workspace.reinit(batch.begin, batch.end);
@@ -245,6 +273,7 @@ namespace talus
                             state_.time,
                             state_.time + dt);
     groups_.rewind();
+    state_.max_velocity_gradient = 0;
     const auto rule            = transfer_.box_shape().rule;
     const bool counts_shear    = transfer_.box_shape().counts_shear;
     double    &gravity_work    = state_.accounts.energy("gravity work");
@@ -259,6 +288,9 @@ namespace talus
       transfer_.apply_bbar_to_dilatation(state_.points,
                                          state_.workspace,
                                          batch);
+      state_.max_velocity_gradient =
+        std::max(state_.max_velocity_gradient,
+                 largest_gradient(state_.workspace, batch));
       timer_.lap(PhaseTimer::grid_to_points);
       problem_.materials.set_cell_sizes(state_.points,
                                         batch,

@@ -23,18 +23,23 @@ namespace talus
   ///                            (h/c) sqrt(2/lambda(max_d h/l_d)).
   /// The second bound is the stability limit of a thin box, whose nodal mass
   /// decreases with l while the stiffness does not. The third bound is the
-  /// stability limit of a free surface just beyond a face of the cells.
+  /// stability limit of a free surface just beyond a face of the cells. A
+  /// fourth bound limits the strain of a step: single points in the air are
+  /// unstable at the other bounds, and would be turned inside out.
   template <int dim>
   class TimeStep : public dealii::ParameterAcceptor
   {
   public:
     TimeStep();
 
-    /// Start a new minimum over points.
+    /// Start a new minimum over points. The norm of the strain per step at the
+    /// @p max_velocity_gradient, 1/s, must not exceed `max_strain`.
     void
-    begin()
+    begin(const double max_velocity_gradient = 0)
     {
-      largest_ = largest_speed_square_ = 0;
+      const double inverse  = max_velocity_gradient / max_strain;
+      largest_              = inverse * inverse;
+      largest_speed_square_ = 0;
     }
 
     /// Include the points of a batch in the minimum.
@@ -106,6 +111,9 @@ namespace talus
     std::string
     first_without_bound(const Points<dim>    &points,
                         const Materials<dim> &materials) const;
+
+    /// Maximum norm of the displacement gradient of a step [-].
+    static constexpr double max_strain = 0.1;
 
     double cfl_number_        = 0.4;
     double box_safety_factor_ = 0.9;

@@ -43,6 +43,10 @@ namespace talus
       list.add("time step", "s", time_step, Reduction::equal);
       list.add("step", "-", step, Reduction::equal);
       list.add("maximum path", "m", max_path, Reduction::equal);
+      list.add("maximum velocity gradient",
+               "1/s",
+               max_velocity_gradient,
+               Reduction::maximum);
       accounts.list_state(list);
       outflow.list_state(list);
     }
@@ -61,6 +65,9 @@ namespace talus
     /// points, m. Between two steps no point moves farther than the difference,
     /// up to the difference between the speeds of point and grid.
     double max_path = 0;
+    /// Maximum norm of the velocity gradient over the points of this rank in
+    /// the last step, 1/s. Limits the next time step.
+    double max_velocity_gradient = 0;
   };
 } // namespace talus
 
