@@ -80,6 +80,10 @@ namespace talus
                         "Shear = counted' splits boxes parallel to the axes. "
                         "Set 'Splitting/Merge = false', or 'Shear = "
                         "ignored'."));
+    AssertThrow(!enabled_ || shape.rule != BoxRule::fixed,
+                ExcUser("Points are merged by their cells, but the boxes of "
+                        "'Transfer/Box rule = fixed' do not follow the cells. "
+                        "Set 'Splitting/Merge = false', or another rule."));
     const double most = splitter.min_split_length() / margin;
     AssertThrow(!enabled_ || length_ <= (1. + 1e-9) * most,
                 ExcUser(text("'Splitting/Merge length' is ",
@@ -309,26 +313,17 @@ namespace talus
     const double loss = kinetic_energy_lost(points, p, q);
     const double id =
       std::min(points.data(points.id)[p], points.data(points.id)[q]);
-    const double body          = points.data(points.body)[p];
-    const double g_p           = points.data(points.generation)[p],
-                 g_q           = points.data(points.generation)[q];
-    const double V_p           = volume_of_points<dim, double>(points, p),
-                 V_q           = volume_of_points<dim, double>(points, q);
-    const double         w     = joint.mass_share();
-    const Tensor<2, dim> edges = joint.edges();
-    Tensor<1, dim>       growth;
-    for (unsigned int k = 0; k < dim; ++k)
-      growth[k] = transpose(edges)[k].norm() /
-                  (w * edge_of_cell(points, k, p).norm() +
-                   (1. - w) * edge_of_cell(points, k, q).norm());
-    join_columns(points, p, q, w, V_p / (V_p + V_q));
+    const double body = points.data(points.body)[p];
+    const double g_p  = points.data(points.generation)[p],
+                 g_q  = points.data(points.generation)[q];
+    const double V_p  = volume_of_points<dim, double>(points, p),
+                 V_q  = volume_of_points<dim, double>(points, q);
+    join_columns(points, p, q, joint.mass_share(), V_p / (V_p + V_q));
     points.data(points.id)[p]   = id;
     points.data(points.body)[p] = body;
     points.data(points.generation)[p] =
       (g_p == g_q ? std::max(0., g_p - 1.) : std::min(g_p, g_q));
-    // Boxes of the rule `fixed` grow with the edges, as splits halve them.
-    for (unsigned int k = 0; k < dim; ++k)
-      points.data(points.box_length, k)[p] *= growth[k];
+    const Tensor<2, dim> edges = joint.edges();
     for (unsigned int c = 0; c < dim * dim; ++c)
       points.data(points.edges, c)[p] = edges[c / dim][c % dim];
     begin_stretch(points, p, p + 1, rule);

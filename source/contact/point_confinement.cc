@@ -22,8 +22,7 @@ namespace talus
                          const unsigned int cell,
                          const unsigned int p)
     {
-      Tensor<1, dim> half =
-        half_lengths_of_box(state.points, p);
+      Tensor<1, dim> half = half_lengths_of_box(state.points, p);
       for (unsigned int d = 0; d < dim; ++d)
         half[d] = std::min(half[d], 0.5 * state.grid.cells()[cell].size);
       return half;
@@ -62,8 +61,7 @@ namespace talus
     /// @p p on, m, without the limit of half_lengths_in_cell().
     template <int dim>
     TALUS_ALWAYS_INLINE std::array<Simd<simd_width>, dim>
-                        load_half_lengths(const Points<dim> &points,
-                                          const unsigned int p)
+    load_half_lengths(const Points<dim> &points, const unsigned int p)
     {
       using Number = Simd<simd_width>;
       std::array<Number, dim> half;
@@ -89,10 +87,9 @@ namespace talus
     const Number       longest(0.5 * cell.size);
     for (unsigned int p = segment.begin; p < segment.end; p += simd_width)
       {
-        const unsigned int n = std::min(simd_width, segment.end - p);
-        const auto         half =
-          load_half_lengths(points, p);
-        Number distance(0.), speed(0.), support(0.);
+        const unsigned int n    = std::min(simd_width, segment.end - p);
+        const auto         half = load_half_lengths(points, p);
+        Number             distance(0.), speed(0.), support(0.);
         for (unsigned int d = 0; d < dim; ++d)
           {
             distance += (load<Number>(points.data(points.position, d) + p) -

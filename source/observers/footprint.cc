@@ -97,9 +97,8 @@ namespace talus
         points.for_each_point([&](const Segment     &segment,
                                   const unsigned int p) {
           const double half_cell = 0.5 * state.grid.cells()[segment.cell].size;
-          const auto   half =
-            half_lengths_of_box(points, p);
-          Columns first, last;
+          const auto   half      = half_lengths_of_box(points, p);
+          Columns      first, last;
           for (unsigned int d = 0; d < dim - 1; ++d)
             {
               const unsigned int a = axis(d);

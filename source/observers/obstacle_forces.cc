@@ -52,9 +52,8 @@ namespace talus
                 obstacles[k].distance_and_normal(x);
               if (distance >= 0)
                 continue;
-              const double support = support_of_box(
-                half_lengths_of_box(points, p),
-                normal);
+              const double support =
+                support_of_box(half_lengths_of_box(points, p), normal);
               const double v     = volume_of_points<dim, double>(points, p);
               Penetration &own   = result[k];
               const double depth = -distance / cell.size;

@@ -28,10 +28,10 @@ namespace talus
     };
     constexpr auto copied = Inheritance::copied, divided = Inheritance::divided;
     constexpr auto scalar = ColumnKind::scalars, vector = ColumnKind::vector,
-                   symmetric   = ColumnKind::symmetric_tensor,
-                   tensor      = ColumnKind::tensor;
-    const std::string volume   = (dim == 2 ? "m^2" : "m^3");
-    using C                    = PointColumns<dim>;
+                   symmetric = ColumnKind::symmetric_tensor,
+                   tensor    = ColumnKind::tensor;
+    const std::string volume = (dim == 2 ? "m^2" : "m^3");
+    using C                  = PointColumns<dim>;
     add(C::position, "position", "m", vector, copied);
     add(C::velocity, "velocity", "m/s", vector, copied);
     add(C::edges, "edges", "m", tensor, copied);

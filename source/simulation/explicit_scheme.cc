@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 namespace talus
 {
@@ -75,24 +76,29 @@ namespace talus
     double
     largest_gradient(const StepWorkspace<dim> &workspace, const Batch &batch)
     {
-      double largest = 0;
-      for_each_simd(
-        0,
-        batch.end - batch.begin,
-        [&](const unsigned int k, auto number) TALUS_INLINE_LAMBDA {
-          using Number = decltype(number);
-          Number square(0.);
-          for (unsigned int i = 0; i < dim; ++i)
-            for (unsigned int j = 0; j < dim; ++j)
-              {
-                const auto L =
-                  load<Number>(workspace.velocity_gradient(i, j) + k);
-                square += L * L;
-              }
-          for (unsigned int n = 0; n < sizeof(Number) / sizeof(double); ++n)
-            largest = std::max(largest, square[n]);
-        });
-      return std::sqrt(largest);
+      Simd<simd_width> largest(0.);
+      Simd<1>          of_rest(0.);
+      for_each_simd(0,
+                    batch.end - batch.begin,
+                    [&](const unsigned int k, auto number) TALUS_INLINE_LAMBDA {
+                      using Number = decltype(number);
+                      Number square(0.);
+                      for (unsigned int i = 0; i < dim; ++i)
+                        for (unsigned int j = 0; j < dim; ++j)
+                          {
+                            const auto L = load<Number>(
+                              workspace.velocity_gradient(i, j) + k);
+                            square += L * L;
+                          }
+                      if constexpr (std::is_same_v<Number, Simd<1>>)
+                        of_rest = max(of_rest, square);
+                      else
+                        largest = max(largest, square);
+                    });
+      double result = of_rest[0];
+      for (unsigned int n = 0; n < simd_width; ++n)
+        result = std::max(result, largest[n]);
+      return std::sqrt(result);
     }
   } // namespace
 
@@ -274,9 +280,9 @@ namespace talus
                             state_.time + dt);
     groups_.rewind();
     state_.max_velocity_gradient = 0;
-    const auto rule            = transfer_.box_shape().rule;
-    const bool counts_shear    = transfer_.box_shape().counts_shear;
-    double    &gravity_work    = state_.accounts.energy("gravity work");
+    const auto rule              = transfer_.box_shape().rule;
+    const bool counts_shear      = transfer_.box_shape().counts_shear;
+    double    &gravity_work      = state_.accounts.energy("gravity work");
     state_.points.for_each_batch([&](const Batch &batch) {
       state_.workspace.reinit(batch.begin, batch.end);
       confinement_.note(state_, batch);

@@ -316,8 +316,11 @@ namespace talus
        "the thin box of point ",
        "the stability of free surfaces, below 'Time step/CFL number', at the "
        "box of point "}};
-    double      largest = 0;
-    std::string reason;
+    double      largest = by_strain_;
+    std::string reason =
+      text("the largest velocity gradient: a step strains soil by ",
+           max_strain,
+           " at most");
     for (const Segment &segment : points.segments())
       for (unsigned int p = segment.begin; p < segment.end; ++p)
         {

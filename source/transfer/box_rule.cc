@@ -57,9 +57,10 @@ namespace talus
       if constexpr (dim == 2)
         {
           const Number volume = determinant(A);
-          const Number B_00 = length[0] * length[0], B_11 = length[1] * length[1];
-          const Number scale = 1. / sqrt(B_00 + B_11 + 2. * volume);
-          length             = {{(B_00 + volume) * scale, (B_11 + volume) * scale}};
+          const Number B_00   = length[0] * length[0],
+                       B_11   = length[1] * length[1];
+          const Number scale  = 1. / sqrt(B_00 + B_11 + 2. * volume);
+          length = {{(B_00 + volume) * scale, (B_11 + volume) * scale}};
         }
       return length;
     }
@@ -100,22 +101,27 @@ namespace talus
         case BoxRule::fixed:
           break;
         case BoxRule::left_stretch:
-          set_lengths<dim>(
-            columns, begin, end, [](const auto &A) TALUS_INLINE_LAMBDA {
-              return left_stretch<dim>(A);
-            });
+          set_lengths<dim>(columns,
+                           begin,
+                           end,
+                           [](const auto &A) TALUS_INLINE_LAMBDA {
+                             return left_stretch<dim>(A);
+                           });
           break;
         case BoxRule::second_moments:
-          set_lengths<dim>(
-            columns, begin, end, [](const auto &A) TALUS_INLINE_LAMBDA {
-              return lengths_of_rows<dim>(A);
-            });
+          set_lengths<dim>(columns,
+                           begin,
+                           end,
+                           [](const auto &A) TALUS_INLINE_LAMBDA {
+                             return lengths_of_rows<dim>(A);
+                           });
           break;
         case BoxRule::convected_domain:
-          set_lengths<dim>(
-            columns, begin, end, [](const auto &A) TALUS_INLINE_LAMBDA {
-              return extents<dim>(A);
-            });
+          set_lengths<dim>(columns,
+                           begin,
+                           end,
+                           [](const auto &A)
+                             TALUS_INLINE_LAMBDA { return extents<dim>(A); });
       }
   }
 

@@ -30,8 +30,7 @@ namespace talus
         const auto H = load_independent_gradient(work, p);
         if (!(determinant_increment(H).value > -1.))
           return false;
-        const auto before =
-          load_matrix<dim, double>(points, deformation, p);
+        const auto before = load_matrix<dim, double>(points, deformation, p);
         Matrix<dim, Number> F;
         for (unsigned int i = 0; i < dim; ++i)
           std::copy(before[i].begin(), before[i].end(), F[i].begin());

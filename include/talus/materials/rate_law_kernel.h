@@ -191,7 +191,7 @@ namespace talus
     const auto stress = returned(trial_stress, moduli.bulk, flow);
     store_turned_stress<dim, Number>(points, p, strain, stress);
 
-    const auto force = deviatoric_force<dim, Number>(motion, stress);
+    const auto force        = deviatoric_force<dim, Number>(motion, stress);
     Number     plastic_work = flow.removed * (0.5 / moduli.mu) *
                           contract(force, trial_stress.deviator_after);
     if constexpr (std::is_same_v<Number, Dilation>)

@@ -65,11 +65,10 @@ namespace talus
   inline std::array<dealii::Tensor<1, dim>, dim>
   drawn_edges(const State<dim> &state, const unsigned int p)
   {
-    const BoxRule rule     = state.constants.box_shape.rule;
-    const bool    is_box   = rule == BoxRule::left_stretch ||
-                          rule == BoxRule::fixed;
-    const auto    longest  = box_lengths(state, p);
-    const auto    unbroken = load_vector(state.points, state.points.box_length, p);
+    const BoxRule rule = state.constants.box_shape.rule;
+    const bool is_box = rule == BoxRule::left_stretch || rule == BoxRule::fixed;
+    const auto longest  = box_lengths(state, p);
+    const auto unbroken = load_vector(state.points, state.points.box_length, p);
     std::array<dealii::Tensor<1, dim>, dim> edges;
     for (unsigned int k = 0; k < dim; ++k)
       {

@@ -37,8 +37,8 @@ namespace talus
     void
     begin(const double max_velocity_gradient = 0)
     {
-      const double inverse  = max_velocity_gradient / max_strain;
-      largest_              = inverse * inverse;
+      const double inverse = max_velocity_gradient / max_strain;
+      largest_ = by_strain_ = inverse * inverse;
       largest_speed_square_ = 0;
     }
 
@@ -121,6 +121,7 @@ namespace talus
 
     /// Maximum inverse square of a bound so far, 1/s^2.
     double largest_              = 0;
+    double by_strain_            = 0; ///< that of the strain of a step, 1/s^2
     double largest_speed_square_ = 0; ///< m^2/s^2
 
     // Scratch data of a batch.
