@@ -22,6 +22,7 @@ namespace talus
     motions_.assign(Motion::width * std::size_t(n_nodes_), 0.);
     exchange_of_sums_.prepare(grid, Sum::width);
     exchange_of_motions_.prepare(grid, Motion::width);
+    exchange_of_volumes_.prepare(grid, 1);
     is_active_.assign(n_nodes_, 0);
     active_nodes_.clear();
     active_ghosts_.clear();
@@ -180,6 +181,22 @@ namespace talus
           std::fill_n(value, Sum::width, 0.);
         }
     exchange_of_sums_.add_to_owners(sums_.data());
+  }
+
+
+
+  template <int dim>
+  void
+  NodalFields<dim>::share_volumes(const Grid<dim> &grid)
+  {
+    if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
+      return;
+    std::vector<double> volumes(n_nodes_, 0.);
+    for (const unsigned int node : active_nodes_)
+      volumes[node] = volume(node);
+    exchange_of_volumes_.copy_to_ghosts(volumes.data());
+    for (unsigned int node = n_owned_nodes_; node < n_nodes_; ++node)
+      sum(node)[Sum::volume] = volumes[node];
   }
 
 

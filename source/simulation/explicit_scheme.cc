@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <type_traits>
 
 namespace talus
@@ -245,7 +246,11 @@ namespace talus
       action();
     };
     NodalInteractions<dim> &interactions = problem_.interactions;
-    in_phase("messages", [&]() { state_.nodes.sum_over_ranks(state_.grid); });
+    in_phase("messages", [&]() {
+      state_.nodes.sum_over_ranks(state_.grid);
+      if (splitter_.is_enabled())
+        state_.nodes.share_volumes(state_.grid);
+    });
     TalusAssert(nodes_carry_all_mass(state_),
                 ExcMessage(
                   "The nodes do not carry all mass of the points: a box "
@@ -283,6 +288,11 @@ namespace talus
     const auto rule              = transfer_.box_shape().rule;
     const bool counts_shear      = transfer_.box_shape().counts_shear;
     double    &gravity_work      = state_.accounts.energy("gravity work");
+    const std::function<bool(unsigned int)> is_in_film =
+      [this](const unsigned int p) {
+        return is_film(state_.grid.cells()[state_.points.cell_of(p)],
+                       state_.nodes);
+      };
     state_.points.for_each_batch([&](const Batch &batch) {
       state_.workspace.reinit(batch.begin, batch.end);
       confinement_.note(state_, batch);
@@ -307,7 +317,21 @@ namespace talus
                                        state_.workspace,
                                        batch,
                                        dt);
-      reduce_edges(state_.points, batch.begin, batch.end, counts_shear);
+      static const double tau =
+        getenv("FILM_TAU") ? atof(getenv("FILM_TAU")) : 0.5;
+      reduce_edges(state_.points,
+                   batch.begin,
+                   batch.end,
+                   counts_shear,
+                   [&](const unsigned int p) {
+                     const Cell<dim> &cell =
+                       state_.grid.cells()[state_.points.cell_of(p)];
+                     double volume = 0;
+                     for (const unsigned int node : cell.nodes())
+                       volume += state_.nodes.volume(node);
+                     return volume <
+                            (1u << (dim - 1)) * tau * std::pow(cell.size, dim);
+                   });
       update_box_lengths(state_.points, batch.begin, batch.end, rule);
       timer_.lap(PhaseTimer::stress_update);
       splitter_.mark(state_.points, batch, state_.grid, rule);

@@ -21,9 +21,9 @@ namespace talus
     constexpr double min_growth = 1.15;
 
     // An edge is shortened along other edges only if each has at least this
-    // fraction of its length. A film of soil one point thick has neighbours
-    // along the film and none across: a long edge along the film stands for
-    // soil that must be split. In 3-D a larger fraction would keep many cells
+    // fraction of its length; in a film, unless it is longer. A film of soil
+    // one point thick has neighbours along the film and none across: a long
+    // edge along the film stands for soil that must be split. In 3-D a larger fraction would keep many cells
     // of general shear long, and split them.
     template <int dim>
     constexpr double min_ratio = (dim == 2 ? 0.5 : 0.3);
@@ -31,6 +31,9 @@ namespace talus
     // Growth beyond which the edge is shortened along edges of any length. The
     // splitter has a limit and could not halve the edge.
     constexpr double max_growth = 4.6;
+
+    // Thickness in cells below which soil is a film, where the fraction is one.
+    constexpr double film_thickness = 0.5;
 
     // Growth at which shear that is counted must end.
     constexpr double max_counted_growth = 1000.;
@@ -88,6 +91,8 @@ namespace talus
       /// Squares of lengths: of the edges, of edges that may be shortened, and
       /// of edges that must be shortened, m^2.
       std::array<Number, dim> square, may_shorten, must_shorten;
+      /// Square of the least ratio of another edge to an edge to be shortened.
+      double ratio_square = min_ratio<dim> * min_ratio<dim>;
 
       TALUS_ALWAYS_INLINE
       Edges(const PointsView<dim> &points,
@@ -134,7 +139,7 @@ namespace talus
           if (shift[j] != 0)
             shortest = min(shortest, square[j]);
         return (along * along > limit * limit) & (square[k] > may_shorten[k]) &
-               ((shortest > (min_ratio<dim> * min_ratio<dim>)*square[k]) |
+               ((shortest > ratio_square * square[k]) |
                 (square[k] > must_shorten[k]));
       }
 
@@ -204,9 +209,12 @@ namespace talus
     void
     reduce(const PointsView<dim> &points,
            const unsigned int     p,
-           const bool             counts_shear)
+           const bool             counts_shear,
+           const bool             is_in_film)
     {
       Edges<dim, double> edges(points, p, counts_shear);
+      if (is_in_film)
+        edges.ratio_square = 1.;
       for (unsigned int k; (k = shorten_one(edges)) != dim;)
         for (unsigned int i = 0; i < dim; ++i)
           points.data(points.edges, dim * i + k)[p] = edges.edge[k][i];
@@ -219,10 +227,11 @@ namespace talus
   // edges of several points at a time, in a fast pass over data in the cache.
   template <int dim>
   void
-  reduce_edges(Points<dim>       &points,
-               const unsigned int begin,
-               const unsigned int end,
-               const bool         counts_shear)
+  reduce_edges(Points<dim>                             &points,
+               const unsigned int                       begin,
+               const unsigned int                       end,
+               const bool                               counts_shear,
+               const std::function<bool(unsigned int)> &is_in_film)
   {
     const auto columns = points.view();
     bool       found   = false;
@@ -232,11 +241,30 @@ namespace talus
       });
     if (found)
       for (unsigned int p = begin; p < end; ++p)
-        reduce(columns, p, counts_shear);
+        reduce(columns, p, counts_shear, is_in_film && is_in_film(p));
   }
 
 
 
+  // Summed over the nodes of a cell, the shape functions are one in the cell and
+  // fall to zero across its neighbours: a layer of thickness t counts
+  // t (2 h)^(dim - 1), and full cells on one side of the cell count as a layer
+  // of h/2. Soil at the surface of a thick layer is no film.
+  template <int dim>
+  bool
+  is_film(const Cell<dim> &cell, const NodalFields<dim> &nodes)
+  {
+    double volume = 0;
+    for (const unsigned int node : cell.nodes())
+      volume += nodes.volume(node);
+    return volume < film_thickness * (1u << (dim - 1)) *
+                      Utilities::fixed_power<dim>(cell.size);
+  }
+
+
+
+  template decltype(is_film<2>)      is_film<2>;
+  template decltype(is_film<3>)      is_film<3>;
   template decltype(reduce_edges<2>) reduce_edges<2>;
   template decltype(reduce_edges<3>) reduce_edges<3>;
 } // namespace talus

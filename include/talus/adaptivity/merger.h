@@ -143,7 +143,7 @@ namespace talus
     unsigned int interval_        = 100;
     double       length_          = 0.5;
     double       tolerance_       = 0.15;
-    double       volume_fraction_ = 0.6;
+    double       volume_fraction_ = 0.9;
 
     /// Whether the points of a body stay: the stress of a hyperelastic law is a
     /// function of F, and joint edges would change F.

@@ -218,7 +218,7 @@ namespace talus
     double       threshold_          = 1.4;
     std::string  directions_         = "stretched";
     double       minimum_length_     = 0.7;
-    unsigned int maximum_generation_ = 20;
+    unsigned int maximum_generation_ = 12;
     unsigned int maximum_points_     = 10000000;
 
     struct SplitMark

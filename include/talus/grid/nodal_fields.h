@@ -40,6 +40,11 @@ namespace talus
     void
     sum_over_ranks(const Grid<dim> &grid);
 
+    /// Copy the volume of soil at the owners to the ghosts, after
+    /// sum_over_ranks(). Collective.
+    void
+    share_volumes(const Grid<dim> &grid);
+
     /// Compute increment dt f/m and new velocity of all active nodes of this
     /// rank with more mass than @p mass_cutoff, kg; other nodes get zero
     /// velocity. @p dt is in s.
@@ -179,6 +184,7 @@ namespace talus
     LargePageVector<double>    motions_;
     NodalExchange<dim>         exchange_of_sums_;
     NodalExchange<dim>         exchange_of_motions_;
+    NodalExchange<dim>         exchange_of_volumes_;
     std::vector<unsigned int>  active_nodes_;
     std::vector<unsigned int>  active_ghosts_;
     std::vector<unsigned int>  formerly_active_nodes_;

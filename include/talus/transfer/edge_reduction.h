@@ -2,7 +2,10 @@
 #ifndef talus_transfer_edge_reduction_h
 #define talus_transfer_edge_reduction_h
 
+#include <talus/grid/nodal_fields.h>
 #include <talus/points/points.h>
+
+#include <functional>
 
 namespace talus
 {
@@ -20,12 +23,22 @@ namespace talus
   ///
   /// @param counts_shear if true, only edges 1000 times as long as at creation
   ///   are replaced: the determinant, the volume, would lose its digits.
+  /// @param is_in_film Whether a point lies in a film, is_film(): there edges
+  ///   are shortened only along longer edges. Empty: no point does.
   template <int dim>
   void
-  reduce_edges(Points<dim> &points,
-               unsigned int begin,
-               unsigned int end,
-               bool         counts_shear);
+  reduce_edges(Points<dim>                             &points,
+               unsigned int                             begin,
+               unsigned int                             end,
+               bool                                     counts_shear,
+               const std::function<bool(unsigned int)> &is_in_film = {});
+
+  /// Return whether the soil in a cell and around it is a film thinner than
+  /// half of the cell. The volumes of soil must be known at the nodes of the
+  /// cell, see NodalFields::share_volumes().
+  template <int dim>
+  bool
+  is_film(const Cell<dim> &cell, const NodalFields<dim> &nodes);
 } // namespace talus
 
 #endif
