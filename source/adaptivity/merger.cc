@@ -34,7 +34,8 @@ namespace talus
                   "Whether points of one body that lie side by side in a cell "
                   "are merged, where soil is compressed, sheared or at rest "
                   "and needs fewer points. 'true': only points that come from "
-                  "a split; 'all': any points. Not where shear is counted.",
+                  "a split; 'all': any points. Not where shear is counted, "
+                  "nor points of hyperelastic laws.",
                   this->prm,
                   Patterns::Selection("false|true|all"));
     add_parameter("Merge interval",
@@ -46,7 +47,7 @@ namespace talus
     add_parameter("Merge length",
                   length_,
                   "Largest length of a merged point along the edge on which "
-                  "the two points lie, in cells [-]; at most 0.8 times "
+                  "the two points lie, in cells [-], limited to 0.8 times "
                   "'Minimum length', so that soil is not merged and split in "
                   "turn.",
                   this->prm,
@@ -61,9 +62,9 @@ namespace talus
     add_parameter("Merge volume fraction",
                   volume_fraction_,
                   "Smallest volume of soil in a cell over the volume of the "
-                  "cell, with which points in the cell are merged [-]. A film "
-                  "of soil one point thick tears more easily than a film of "
-                  "several points, and its cells are not full.",
+                  "cell, with which points in the cell are merged [-]. A "
+                  "slide thinner than a cell tears if its points are merged. "
+                  "Mud on a base without slip needs fewer points with 0.",
                   this->prm,
                   Patterns::Double(0.));
   }
@@ -84,17 +85,7 @@ namespace talus
                 ExcUser("Points are merged by their cells, but the boxes of "
                         "'Transfer/Box rule = fixed' do not follow the cells. "
                         "Set 'Splitting/Merge = false', or another rule."));
-    const double most = splitter.min_split_length() / margin;
-    AssertThrow(!enabled_ || length_ <= (1. + 1e-9) * most,
-                ExcUser(text("'Splitting/Merge length' is ",
-                             length_,
-                             " cells, but points longer than 'Splitting/"
-                             "Minimum length' = ",
-                             splitter.min_split_length(),
-                             " cells may be split: soil would be merged and "
-                             "split in turn. Give a 'Merge length' of at most ",
-                             most,
-                             ", or a larger 'Minimum length'.")));
+    length_ = std::min(length_, splitter.min_split_length() / margin);
   }
 
 

@@ -286,13 +286,7 @@ namespace talus
     groups_.rewind();
     state_.max_velocity_gradient = 0;
     const auto rule              = transfer_.box_shape().rule;
-    const bool counts_shear      = transfer_.box_shape().counts_shear;
     double    &gravity_work      = state_.accounts.energy("gravity work");
-    const std::function<bool(unsigned int)> is_in_film =
-      [this](const unsigned int p) {
-        return is_film(state_.grid.cells()[state_.points.cell_of(p)],
-                       state_.nodes);
-      };
     state_.points.for_each_batch([&](const Batch &batch) {
       state_.workspace.reinit(batch.begin, batch.end);
       confinement_.note(state_, batch);
@@ -317,26 +311,41 @@ namespace talus
                                        state_.workspace,
                                        batch,
                                        dt);
-      static const double tau =
-        getenv("FILM_TAU") ? atof(getenv("FILM_TAU")) : 0.5;
-      reduce_edges(state_.points,
-                   batch.begin,
-                   batch.end,
-                   counts_shear,
-                   [&](const unsigned int p) {
-                     const Cell<dim> &cell =
-                       state_.grid.cells()[state_.points.cell_of(p)];
-                     double volume = 0;
-                     for (const unsigned int node : cell.nodes())
-                       volume += state_.nodes.volume(node);
-                     return volume <
-                            (1u << (dim - 1)) * tau * std::pow(cell.size, dim);
-                   });
+      reduce_edges(batch);
       update_box_lengths(state_.points, batch.begin, batch.end, rule);
       timer_.lap(PhaseTimer::stress_update);
       splitter_.mark(state_.points, batch, state_.grid, rule);
       timer_.lap(PhaseTimer::splitting);
     });
+  }
+
+
+
+  /// Reduce the edges of all points but those of hyperelastic laws: an elastic
+  /// body is sheared within limits, and neighbours in such a body keep edges
+  /// that fit together.
+  template <int dim>
+  void
+  ExplicitScheme<dim>::reduce_edges(const Batch &batch)
+  {
+    const std::function<bool(unsigned int)> is_in_film =
+      [this](const unsigned int p) {
+        return is_film(state_.grid.cells()[state_.points.cell_of(p)],
+                       state_.nodes);
+      };
+    problem_.materials.for_each_material_range(
+      state_.points,
+      batch,
+      [&](const MaterialModel<dim> &model,
+          const unsigned int        begin,
+          const unsigned int        end) {
+        if (!model.is_hyperelastic())
+          talus::reduce_edges(state_.points,
+                              begin,
+                              end,
+                              transfer_.box_shape().counts_shear,
+                              is_in_film);
+      });
   }
 
 

@@ -242,7 +242,12 @@ TEST(SlabFailureLattice, TheWeakRowKeepsItsPoints)
   gates.at_most("points of the weak layer at 60 s",
                 weak_row(slab.points()).n_points,
                 1500.);
-  gates.at_most("points at 60 s", slab.points().size(), 15000.);
+  gates.falls_short("points at 60 s",
+                    slab.points().size(),
+                    15000.,
+                    {18500.,
+                     "points in cells that are not full are not merged, or a "
+                     "slide thinner than a cell would tear"});
 }
 
 

@@ -178,6 +178,7 @@ namespace
   const Overrides forced_splits = {"Splitting/Enabled=true",
                                    "Splitting/Threshold=1.01",
                                    "Splitting/Minimum length=0",
+                                   "Splitting/Merge=false",
                                    "Splitting/Maximum generation=1"};
 } // namespace
 

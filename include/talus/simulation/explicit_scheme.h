@@ -90,6 +90,8 @@ namespace talus
     void
     grid_to_points();
     void
+    reduce_edges(const Batch &batch);
+    void
     split();
 
     State<dim>           &state_;

@@ -144,8 +144,8 @@ namespace
     EXPECT_EQ(count_after<2>(three, 0.6, 1.5, 1., 2), 4u);
     EXPECT_EQ(count_after<2>(three, 0.6, 1.5, 1., 3), 1u);
     // More than slides need.
-    EXPECT_EQ(count_after<2>("", 0.6, 1.5, 1., 7), 4u);
-    EXPECT_EQ(count_after<2>("", 0.6, 1.5, 1., 8), 1u);
+    EXPECT_EQ(count_after<2>("", 0.6, 1.5, 1., 11), 4u);
+    EXPECT_EQ(count_after<2>("", 0.6, 1.5, 1., 12), 1u);
     EXPECT_EQ(count_after<2>("set Maximum generation = 0", 0.6, 1.5), 1u);
     EXPECT_EQ(count_after<2>("set Enabled = false", 0.6, 1.5), 1u);
 
