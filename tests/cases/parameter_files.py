@@ -72,8 +72,8 @@ class FirstSlope(unittest.TestCase):
         self.assertLess(energy[-1], 1e-3 * max(energy))
         # The area of the trapezoid, its submerged density, gravity.
         weight = 88 * 600 * 9.81 * math.sin(math.radians(4))
-        # At rest since 22 s.
-        force = -sum(slide["seabed force x [N]"][-8:]) / 8
+        # At rest since 20 s; waves in the soil change the force by 2 %.
+        force = -sum(slide["seabed force x [N]"][-20:]) / 20
         self.assertLess(abs(force / weight - 1), 0.001)
         # Inertia only changes the clock.
         light = self.slide("light", "Materials/mud/Density=600",

@@ -10,45 +10,6 @@
 
 namespace talus
 {
-  /// Implement MaterialModel::linearize() for hyperelastic laws: @p response
-  /// maps a DeformationState to a StateResponse; @p deformation is the column
-  /// of F. Returns false if a point is inverted.
-  template <int dim, typename Response>
-  inline bool
-  linearize_by_state(const Points<dim>        &points,
-                     const StepWorkspace<dim> &workspace,
-                     const unsigned int        deformation,
-                     const unsigned int        begin,
-                     const unsigned int        end,
-                     StressTangent<dim>       *linearization,
-                     const Response           &response)
-  {
-    using Number    = Dual<dim * dim>;
-    const auto work = workspace.view(begin, end);
-    for (unsigned int p = begin; p < end; ++p)
-      {
-        const auto H = load_independent_gradient(work, p);
-        if (!(determinant_increment(H).value > -1.))
-          return false;
-        const auto before = load_matrix<dim, double>(points, deformation, p);
-        Matrix<dim, Number> F;
-        for (unsigned int i = 0; i < dim; ++i)
-          std::copy(before[i].begin(), before[i].end(), F[i].begin());
-        F = product(identity_plus(H), F);
-
-        StateResponse<dim, Number> after = response(deformation_state(F));
-        for (Number &component : after.kirchhoff)
-          component *= 1. / determinant(before);
-        store_nominal(after.kirchhoff,
-                      H,
-                      StrainMeasure::large,
-                      linearization[p - begin]);
-      }
-    return true;
-  }
-
-
-
   template <int dim, typename StrainEnergy>
   void
   HyperelasticLaw<dim, StrainEnergy>::add_columns(Points<dim> &points)
@@ -113,15 +74,30 @@ namespace talus
   {
     TalusAssert(measure == StrainMeasure::large, dealii::ExcInternalError());
     (void)measure;
-    return linearize_by_state(points,
-                              workspace,
-                              deformation_,
-                              begin,
-                              end,
-                              linearization,
-                              [energy = strain_energy()](const auto &state) {
-                                return energy.response(state);
-                              });
+    using Number              = Dual<dim * dim>;
+    const auto         work   = workspace.view(begin, end);
+    const StrainEnergy energy = strain_energy();
+    for (unsigned int p = begin; p < end; ++p)
+      {
+        const auto H = load_independent_gradient(work, p);
+        if (!(determinant_increment(H).value > -1.))
+          return false;
+        const auto before = load_matrix<dim, double>(points, deformation_, p);
+        Matrix<dim, Number> F;
+        for (unsigned int i = 0; i < dim; ++i)
+          std::copy(before[i].begin(), before[i].end(), F[i].begin());
+        F = product(identity_plus(H), F);
+
+        StateResponse<dim, Number> after =
+          energy.response(deformation_state(F));
+        for (Number &component : after.kirchhoff)
+          component *= 1. / determinant(before);
+        store_nominal(after.kirchhoff,
+                      H,
+                      StrainMeasure::large,
+                      linearization[p - begin]);
+      }
+    return true;
   }
 
 

@@ -121,7 +121,7 @@ namespace talus
 
     /// Maximum inverse square of a bound so far, 1/s^2.
     double largest_              = 0;
-    double by_strain_            = 0; ///< that of the strain of a step, 1/s^2
+    double by_strain_            = 0; ///< bound by the strain, 1/s^2
     double largest_speed_square_ = 0; ///< m^2/s^2
 
     // Scratch data of a batch.
