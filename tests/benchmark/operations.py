@@ -22,6 +22,7 @@ COLUMNS = {
     "edges": lambda d: d * d,
     "stress": lambda d: 2 * d,
     "mass": lambda d: 1,
+    "reference volume": lambda d: 1,
     "box length": lambda d: d,
     "length at creation": lambda d: d,
     "elastic energy": lambda d: 1,
@@ -37,7 +38,7 @@ COLUMNS = {
 SWEEPS = {
     "time step": (
         ["edges", "mass", "velocity", "box length"], []),
-    "points to grid": (["position", "stress"], []),
+    "points to grid": (["position", "stress", "reference volume"], []),
     "grid to points": (
         ["position", "box length", "velocity", "mass", "edges"],
         ["position", "velocity"]),
@@ -102,18 +103,17 @@ class Operations:
         """Square of the wave speed; per axis speed and box; the two bounds."""
         return self.determinant + 6 + 10 * self.d + 14
 
-    def stretch_fixed(self):
-        return 3 * self.d
-
-    def stretch_right(self):
-        """2-D in closed form; 3-D by some four iterations for the rotation."""
-        return self.determinant + (17 if self.d == 2 else 4 * 96 + 15)
+    def edges(self):
+        """Lengths of the box, and the test for long edges."""
+        d, n_combinations = self.d, 2 if self.d == 2 else 12
+        return (2 * d * d + d * (2 * d - 1) + 4 * d
+                + n_combinations * (5 * d + 3))
 
     def elastic_block(self):
         """The step of block.prm and block-3d.prm."""
         return (
             self.time_step() + self.scatter() + self.gather()
-            + self.linear_elastic + self.stretch_fixed()
+            + self.linear_elastic + self.edges()
         )
 
     def by_phase(self):
@@ -122,7 +122,7 @@ class Operations:
             "time step": self.time_step(),
             "points to grid": self.mean_stress() + self.scatter(),
             "grid to points": self.gather() + self.mean_dilatation(),
-            "stress update": self.von_mises + self.stretch_right(),
+            "stress update": self.von_mises + self.edges(),
             "splitting": 5 * self.d + 1,
         }
 
