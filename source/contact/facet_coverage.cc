@@ -301,8 +301,7 @@ namespace talus
       for (unsigned int p = segments[s].begin; p < segments[s].end; ++p)
         {
           const Point<dim> x = load_place(points, points.position, p) + shift;
-          const Tensor<1, dim> half =
-            half_lengths_of_box(points, p);
+          const Tensor<1, dim> half = half_lengths_of_box(points, p);
           // Most boxes lie above, below or beside all sample points.
           const double min_height = outwards * (x[axis] - nearest);
           const double max_height = outwards * (x[axis] - farthest);

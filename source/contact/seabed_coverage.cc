@@ -224,9 +224,8 @@ namespace talus
     for (unsigned int p = begin; p < end; ++p)
       {
         const double x = state.points.data(state.points.position, axis)[p];
-        const Tensor<1, dim> half =
-          half_lengths_of_box(state.points, p);
-        const double distance =
+        const Tensor<1, dim> half = half_lengths_of_box(state.points, p);
+        const double         distance =
           (at.face % 2 == 0 ? x - domain.lower[axis] : domain.upper[axis] - x);
         double area = weight_of_gap((distance - half[axis]) / cell.size);
         if (area == 0)

@@ -457,7 +457,10 @@ namespace talus
     for (unsigned int p = 0; p < points.size(); ++p)
       for (unsigned int d = 0; d < dim; ++d)
         points.data(points.position, d)[p] += moved[dim * p + d];
-    update_box_lengths(points, 0, points.size(), problem.transfer.box_shape().rule);
+    update_box_lengths(points,
+                       0,
+                       points.size(),
+                       problem.transfer.box_shape().rule);
   }
 
 

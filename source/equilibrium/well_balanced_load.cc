@@ -177,10 +177,10 @@ namespace talus
                                     const unsigned int        d,
                                     const double              height) const
   {
-    const Points<dim> &points = problem.state.points;
-    const Box<dim>    &domain = problem.state.grid.domain();
-    const auto         x      = load_place(points, points.position, p);
-    double half_width = 0.5 * points.data(points.box_length, d)[p];
+    const Points<dim> &points     = problem.state.points;
+    const Box<dim>    &domain     = problem.state.grid.domain();
+    const auto         x          = load_place(points, points.position, p);
+    double             half_width = 0.5 * points.data(points.box_length, d)[p];
     for (unsigned int k = 0; k < 5; ++k, half_width *= 0.5)
       {
         Point<dim> lower = x, upper = x;

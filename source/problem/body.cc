@@ -119,8 +119,8 @@ namespace talus
     for (unsigned int d = 0; d < dim; ++d)
       {
         volume *= point.length[d];
-        points.data(points.position, d)[p]         = point.x[d];
-        points.data(points.initial_position, d)[p] = point.x[d];
+        points.data(points.position, d)[p]           = point.x[d];
+        points.data(points.initial_position, d)[p]   = point.x[d];
         points.data(points.edges, d * (dim + 1))[p]  = point.length[d];
         points.data(points.box_length, d)[p]         = point.length[d];
         points.data(points.length_at_creation, d)[p] = point.length[d];

@@ -220,8 +220,7 @@ namespace talus
   {
     const Tensor<1, dim> &n    = plane.normal;
     const unsigned int    axis = steepest_axis<dim>(n);
-    const Tensor<1, dim>  half =
-      half_lengths_of_box(state.points, p);
+    const Tensor<1, dim>  half = half_lengths_of_box(state.points, p);
     // Most boxes lie above the bed.
     double lowest = plane.distance - half[axis] * std::abs(n[axis]);
     for (unsigned int d = 0; d < dim; ++d)

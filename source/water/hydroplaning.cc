@@ -144,10 +144,10 @@ namespace talus
   void
   Hydroplaning<dim>::add_point(const State<dim> &state, const unsigned int p)
   {
-    const Points<dim> &points = state.points;
-    const auto         x      = load_place(points, points.position, p);
-    const auto         v      = load_place(points, points.velocity, p);
-    const auto half = half_lengths_of_box(points, p);
+    const Points<dim>        &points = state.points;
+    const auto                x      = load_place(points, points.position, p);
+    const auto                v      = load_place(points, points.velocity, p);
+    const auto                half   = half_lengths_of_box(points, p);
     const MaterialModel<dim> &material =
       materials_.of_body(points.data(points.body)[p]);
     const double                mass   = points.data(points.mass)[p];

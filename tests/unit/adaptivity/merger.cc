@@ -379,8 +379,7 @@ namespace
   TEST(Merger, ChildrenGiveTheirParent)
   {
     for (const std::string directions : {"all", "stretched"})
-      for (const std::string rule :
-           {"axis-parallel", "convected domain"})
+      for (const std::string rule : {"axis-parallel", "convected domain"})
         {
           expect_parent_back<2>(directions, rule);
           expect_parent_back<3>(directions, rule);
