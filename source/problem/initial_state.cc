@@ -118,8 +118,9 @@ namespace talus
 
 
   /// Move points to X + u and set the velocity gradient in @p workspace to
-  /// du/dX: the deformation is a step of one second. Central differences, because the user gives only u,
-  /// and derivatives by hand would be a source of errors.
+  /// du/dX: the deformation is a step of one second. Central differences,
+  /// because the user gives only u, and derivatives by hand would be a source
+  /// of errors.
   template <int dim>
   void
   InitialState<dim>::displace(Points<dim>        &points,

@@ -21,10 +21,10 @@ namespace talus
     constexpr double min_growth = 1.15;
 
     // An edge is shortened along other edges only if each has at least this
-    // fraction of its length; in a film, unless it is longer. A film of soil
-    // one point thick has neighbours along the film and none across: a long
-    // edge along the film stands for soil that must be split. In 3-D a larger fraction would keep many cells
-    // of general shear long, and split them.
+    // fraction of its length, in a film all of its length. A film of soil one
+    // point thick has neighbours along the film and none across: a long edge
+    // along the film stands for soil that must be split. In 3-D a larger
+    // fraction would keep many cells of general shear long, and split them.
     template <int dim>
     constexpr double min_ratio = (dim == 2 ? 0.5 : 0.3);
 
@@ -246,8 +246,8 @@ namespace talus
 
 
 
-  // Summed over the nodes of a cell, the shape functions are one in the cell and
-  // fall to zero across its neighbours: a layer of thickness t counts
+  // Summed over the nodes of a cell, the shape functions are one in the cell
+  // and fall to zero across its neighbours: a layer of thickness t counts
   // t (2 h)^(dim - 1), and full cells on one side of the cell count as a layer
   // of h/2. Soil at the surface of a thick layer is no film.
   template <int dim>

@@ -119,7 +119,8 @@ namespace talus
 
 
 
-  /// Advance the edges of point(s) @p p and compute the trial stress. @p factor is the strength factor of the point(s).
+  /// Advance the edges of point(s) @p p and compute the trial stress. @p factor
+  /// is the strength factor of the point(s).
   template <int dim, typename Number, typename FlowRule, typename Factor>
   TALUS_ALWAYS_INLINE auto
   rate_law_trial(const RateLawStep<dim, FlowRule> &step,

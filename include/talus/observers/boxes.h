@@ -22,10 +22,10 @@ namespace talus
 
 
 
-  /// Extent of the box of point @p p along each axis, m, at most @p longest; for
-  /// a convected domain from the lowest to the highest corner. Boxes are longer
-  /// only where a limit keeps points from being split. A box too thin for the
-  /// weights is not thickened, so that boxes cover the soil once.
+  /// Extent of the box of point @p p along each axis, m, at most @p longest;
+  /// for a convected domain from the lowest to the highest corner. Boxes are
+  /// longer only where a limit keeps points from being split. A box too thin
+  /// for the weights is not thickened, so that boxes cover the soil once.
   template <int dim>
   inline dealii::Tensor<1, dim>
   box_lengths(const Points<dim> &points,
