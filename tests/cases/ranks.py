@@ -252,6 +252,13 @@ class Ranks(Runs):
         for n_ranks in (2, 4):
             self.assert_same(self.run_on(n_ranks, settings, name), alone)
 
+    def test_film(self):
+        """Soil thinner than half a cell, whose volume at the nodes all ranks must know."""
+        name = CASES / "thin-slide.prm"
+        alone = self.run_on(1, ["End time=12"] + TERSE, name)
+        for n_ranks in (2, 4):
+            self.assert_same(self.run_on(n_ranks, ["End time=12"] + TERSE, name), alone)
+
     def test_budget_of_points_is_that_of_all_ranks(self):
         (self.folder / "case.prm").write_text(GOOD)
         for n_ranks in (1, 2, 3):

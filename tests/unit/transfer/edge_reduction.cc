@@ -78,6 +78,51 @@ namespace
 
 
 
+  // A long edge along the film stays, to be split; otherwise the short edge
+  // across the film would make it compact, and leave a gap in the film.
+  TEST(EdgeReduction, AFilmKeepsItsLongEdges)
+  {
+    const Tensor<2, 2> start({{0.3, 0.}, {0., 0.2}}),
+      stretched({{0.35, 0.}, {0.2, 0.22}});
+    for (const bool is_film : {false, true})
+      {
+        Core<2>            core(cube<2>());
+        const unsigned int p = add_cell<2>(core, start, stretched);
+        reduce_edges(core.points, 0, 1, false, [&](const unsigned int) {
+          return is_film;
+        });
+        const Tensor<2, 2> reduced = core.edges(p);
+        EXPECT_NEAR(determinant(reduced), determinant(stretched), 1e-15);
+        EXPECT_EQ(reduced == stretched, is_film);
+      }
+  }
+
+
+
+  // A layer of 0.4 cells is a film; soil at the surface of a thick layer is not.
+  TEST(EdgeReduction, WhatIsAFilm)
+  {
+    for (const auto &[height, is_thin] : std::vector<std::pair<double, bool>>{
+           {0.4, true}, {0.6, false}, {1.1, false}})
+      {
+        Core<2>            core(cube<2>());
+        const unsigned int n_rows = (height > 1. ? 2 : 1);
+        const Tensor<1, 2> length({0.25, height / n_rows});
+        for (unsigned int row = 0; row < n_rows; ++row)
+          for (unsigned int i = 0; i < 12; ++i)
+            core.add(Point<2>(0.25 * (i + 0.5), length[1] * (row + 0.5)),
+                     length);
+        core.sort();
+        core.scatter();
+        const unsigned int cell =
+          core.grid.find_cell(Point<2>(1.5, height > 1. ? 1.05 : 0.5 * height));
+        EXPECT_EQ(is_film(core.grid.cells()[cell], core.nodes), is_thin)
+          << height;
+      }
+  }
+
+
+
   /// Largest component of an edge along another edge, or along the sum or
   /// difference of two others, in lengths of the latter.
   template <int dim>
