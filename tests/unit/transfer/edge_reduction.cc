@@ -99,7 +99,7 @@ namespace
 
 
 
-  // A layer of 0.4 cells is a film; soil at the surface of a thick layer is not.
+  // A layer of 0.4 cells is a film; the surface of a thick layer is none.
   TEST(EdgeReduction, WhatIsAFilm)
   {
     for (const auto &[height, is_thin] : std::vector<std::pair<double, bool>>{
