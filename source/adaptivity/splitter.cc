@@ -42,10 +42,10 @@ namespace talus
                   Patterns::Double(0., 1.));
     add_parameter("Maximum generation",
                   maximum_generation_,
-                  "Largest number of successive splits of a point [-]. No "
-                  "slide reaches the default, as points shorter than 'Minimum "
-                  "length' are not split; where shear is counted, choose a "
-                  "smaller number. A point at the limit is not split: its box "
+                  "Largest number of successive splits of a point [-]. Few "
+                  "points reach the default, mostly spray and mud on a base "
+                  "without slip; where shear is counted, choose a smaller "
+                  "number. A point at the limit is not split: its box "
                   "is clipped, and soil that stretches on may tear. Points at "
                   "the limit are counted in statistics.csv and reported in "
                   "log.txt.",

@@ -46,8 +46,9 @@ namespace talus
       return enabled_;
     }
 
-    /// Take the parameters over. Throw ExcUser if merged points could soon be
-    /// split again, or if @p shape counts shear. Without splitting merging is
+    /// Take the parameters over and limit the merge length, so that merged
+    /// points are not split again soon. Throw ExcUser if the boxes of @p shape
+    /// count shear or do not follow the cells. Without splitting merging is
     /// disabled, unless points that were never split are merged.
     void
     prepare(const Splitter<dim> &splitter, const BoxShape &shape);
