@@ -217,22 +217,26 @@ namespace talus
 
 
 
-  /// Each simplex goes from the lower to the upper corner along the axes, in
-  /// one permutation of the axes.
+  /// Each simplex goes along the axes from the corner nearest to @p centre to
+  /// the opposite corner, in one permutation of the axes.
   template <int dim>
   std::array<Simplex<dim>, dim == 2 ? 2 : 6>
-  simplices_of(const Box<dim> &box)
+  simplices_of(const Box<dim> &box, const Point<dim> &centre)
   {
+    Point<dim> nearest = box.lower, farthest = box.upper;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (box.lower[d] + box.upper[d] < 2. * centre[d])
+        std::swap(nearest[d], farthest[d]);
     std::array<Simplex<dim>, dim == 2 ? 2 : 6> result;
     std::array<unsigned int, dim>              axes;
     std::iota(axes.begin(), axes.end(), 0);
     for (Simplex<dim> &simplex : result)
       {
-        simplex[0] = box.lower;
+        simplex[0] = nearest;
         for (unsigned int d = 0; d < dim; ++d)
           {
             simplex[d + 1]          = simplex[d];
-            simplex[d + 1][axes[d]] = box.upper[axes[d]];
+            simplex[d + 1][axes[d]] = farthest[axes[d]];
           }
         std::next_permutation(axes.begin(), axes.end());
       }

@@ -70,7 +70,7 @@ namespace talus
                  const DistanceFunction<dim>      &distance,
                  std::vector<SurfaceElement<dim>> &elements)
     {
-      for (const Simplex<dim> &simplex : simplices_of(box))
+      for (const Simplex<dim> &simplex : simplices_of(box, box.lower))
         {
           std::array<double, dim + 1> values;
           for (unsigned int v = 0; v < dim + 1; ++v)

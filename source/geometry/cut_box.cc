@@ -84,8 +84,9 @@ namespace talus
                      const Action                &action,
                      const Uncut                 &uncut)
     {
-      const double size     = box.length(0);
-      const double diagonal = box.lower.distance(box.upper);
+      const double     size     = box.length(0);
+      const double     diagonal = box.lower.distance(box.upper);
+      const Point<dim> centre   = box.lower + 0.5 * (box.upper - box.lower);
       const auto   value    = [&](const Point<dim> &x) {
         const double d = distance(x);
         return std::abs(d) < 1e-9 * size ? 0. : d;
@@ -118,7 +119,7 @@ namespace talus
                     corner[d] = ((v >> d) & 1 ? part.upper : part.lower)[d];
                   at_corners[v] = value(corner);
                 }
-              for (const Simplex<dim> &simplex : simplices_of(part))
+              for (const Simplex<dim> &simplex : simplices_of(part, centre))
                 {
                   std::array<double, dim + 1> values;
                   for (unsigned int v = 0; v <= dim; ++v)
@@ -255,7 +256,7 @@ namespace talus
       },
       [&](const Box<dim> &part, const double at_middle) {
         if (at_middle < 0)
-          for (const Simplex<dim> &closed : simplices_of(part))
+          for (const Simplex<dim> &closed : simplices_of(part, part.lower))
             add_integrals(box, closed, -1., result);
       });
     // Removes round-off of boxes that are completely closed.

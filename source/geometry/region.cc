@@ -174,7 +174,7 @@ namespace talus
     // Otherwise round-off would cut off slivers at a surface on a face of the
     // lattice.
     const double tolerance = 1e-6 * sum.tolerance;
-    for (const Simplex<dim> &simplex : simplices_of(box))
+    for (const Simplex<dim> &simplex : simplices_of(box, sum.origin))
       {
         std::vector<Simplex<dim>> parts{simplex};
         for (std::size_t i = 0; i < limits.size(); ++i)

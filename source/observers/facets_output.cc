@@ -20,7 +20,7 @@ namespace talus
                     const std::array<Tensor<1, 3>, 2> &axes)
     {
       std::array<double, 2> least{}, largest{};
-      for (const Simplex<3> &simplex : simplices_of(cell.box()))
+      for (const Simplex<3> &simplex : simplices_of(cell.box(), cell.lower))
         {
           std::array<double, 4> height;
           for (unsigned int v = 0; v < 4; ++v)

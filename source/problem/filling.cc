@@ -8,9 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <tuple>
 
 namespace talus
 {
@@ -261,10 +259,10 @@ namespace talus
       is_kept(const PartInside<dim> &part, unsigned int cell) const;
       std::vector<unsigned int>
       cells_around(unsigned int cell) const;
-      std::pair<unsigned int, unsigned int>
-      receiver(const PartInside<dim> &sliver,
-               double                 first_volume,
-               unsigned int           cell) const;
+      std::vector<std::pair<unsigned int, unsigned int>>
+      receivers(const PartInside<dim> &sliver,
+                double                 first_volume,
+                unsigned int           cell) const;
       std::map<unsigned int, std::vector<SliverTransfer<dim>>>
       take_slivers();
 
@@ -381,43 +379,42 @@ namespace talus
 
 
 
-    /// Return cell and box that receive a sliver of @p cell: the nearest kept
-    /// box. Without a kept box around, return the box with the largest initial
-    /// volume, if so much larger than @p first_volume, the initial volume of
-    /// the giving box, m^dim, that both could not be neighbouring points;
-    /// otherwise invalid_unsigned_int. Ties are broken by the keys of the
-    /// cells, independently of the ranks.
+    /// Return cells and boxes that receive a sliver of @p cell, in equal parts:
+    /// the nearest kept box, or all of them at the same distance. Without a
+    /// kept box around, return the box with the largest initial volume, if so
+    /// much larger than @p first_volume, the initial volume of the giving box,
+    /// m^dim, that both could not be neighbouring points.
     template <int dim>
-    std::pair<unsigned int, unsigned int>
-    ClippedBoxes<dim>::receiver(const PartInside<dim> &sliver,
-                                const double           first_volume,
-                                const unsigned int     cell) const
+    std::vector<std::pair<unsigned int, unsigned int>>
+    ClippedBoxes<dim>::receivers(const PartInside<dim> &sliver,
+                                 const double           first_volume,
+                                 const unsigned int     cell) const
     {
-      // The smallest Rank wins.
-      using Rank = std::tuple<bool, double, unsigned long, unsigned int>;
-      Rank best(true, std::numeric_limits<double>::infinity(), 0, 0);
-      std::pair<unsigned int, unsigned int> result{
-        numbers::invalid_unsigned_int, 0};
+      std::vector<std::pair<unsigned int, unsigned int>> result;
+      bool                                               best_is_kept = false;
+      double                                             best         = 0;
       for (const unsigned int c : cells_around(cell))
         if (const auto boxes = cells_.find(c); boxes != cells_.end())
           for (unsigned int i = 0; i < boxes->second.first.size(); ++i)
             {
               const PartInside<dim> &part = boxes->second.first[i];
-              const unsigned long    key  = grid_.key_of_cell(c);
               const bool             kept = is_kept(part, c);
-              if (!kept && part.volume < first_volume / min_fraction)
+              if (kept < best_is_kept ||
+                  (!kept && part.volume < first_volume / min_fraction))
                 continue;
-              const Rank rank =
-                kept ? Rank(false,
-                            part.centroid.distance_square(sliver.centroid),
-                            key,
-                            i)
-                     : Rank(true, -part.volume, ~key, ~i);
-              if (rank < best)
+              const double value =
+                kept ? part.centroid.distance_square(sliver.centroid)
+                     : -part.volume;
+              const double round_off = 1e-9 * std::abs(best);
+              if (result.empty() || kept != best_is_kept ||
+                  value < best - round_off)
                 {
-                  best   = rank;
-                  result = {c, i};
+                  result.clear();
+                  best_is_kept = kept;
+                  best         = value;
                 }
+              if (value <= best + round_off)
+                result.push_back({c, i});
             }
       return result;
     }
@@ -438,15 +435,17 @@ namespace talus
              ++i)
           {
             const PartInside<dim> &first  = boxes.first[i];
-            const PartInside<dim> &sliver = boxes.parts()[i];
+            PartInside<dim>        sliver = boxes.parts()[i];
             if (sliver.volume == 0. || is_kept(first, c))
               continue;
-            const auto [to_cell, to_box] = receiver(sliver, first.volume, c);
-            if (to_cell == numbers::invalid_unsigned_int)
+            const auto to = receivers(sliver, first.volume, c);
+            if (to.empty())
               continue;
-            result[grid_.owner_of_cell(to_cell)].push_back(
-              {{{grid_.key_of_cell(to_cell), to_box, grid_.key_of_cell(c), i}},
-               sliver});
+            sliver.volume /= to.size();
+            for (const auto &[cell, box] : to)
+              result[grid_.owner_of_cell(cell)].push_back(
+                {{{grid_.key_of_cell(cell), box, grid_.key_of_cell(c), i}},
+                 sliver});
             boxes.changing_parts()[i].volume = 0.;
           }
       return result;

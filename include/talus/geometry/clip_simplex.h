@@ -66,10 +66,12 @@ namespace talus
   centroid(const Facet<dim> &facet);
 
   /// Return the 2 triangles or 6 tetrahedra around a diagonal that tile @p box
-  /// (Kuhn's tiling). Faces of adjacent boxes match.
+  /// (Kuhn's tiling). The diagonal begins at the corner nearest to @p centre,
+  /// the centre of a cell with parts like @p box. So the tiling of the cell is
+  /// symmetric about @p centre, and faces of adjacent boxes match.
   template <int dim>
   std::array<Simplex<dim>, dim == 2 ? 2 : 6>
-  simplices_of(const Box<dim> &box);
+  simplices_of(const Box<dim> &box, const dealii::Point<dim> &centre);
 } // namespace talus
 
 #endif
