@@ -118,27 +118,47 @@ namespace talus
   ///
   /// Each point, in the order of positions, is merged with the best fitting of
   /// the points behind until none fits. A row of boxes is thus merged from its
-  /// lower end, independent of the round-off in the misfits, which depends on
-  /// the number of ranks: of two fits that differ by round-off the first is
-  /// taken.
+  /// end nearest to a face of the cell, the lower end if both are equally near.
+  /// Soil and its mirror image are merged alike, and round-off in the misfits,
+  /// which depends on the number of ranks, does not matter: of two fits that
+  /// differ by round-off the first is taken.
   template <int dim>
   double
   Merger<dim>::merge_along(const unsigned int   axis,
                            Points<dim>         &points,
                            const BoxRule        rule,
-                           const double         cell_size,
+                           const Cell<dim>     &cell,
                            const Splitter<dim> &splitter)
   {
-    const auto is_lower = [&](const unsigned int p, const unsigned int q) {
-      for (unsigned int d = 0; d < dim; ++d)
+    if (members_.size() < 2)
+      return 0;
+    // If a neighbour is smaller, take half the size of the cell: its points may
+    // enter the smaller cell in the next step.
+    const double   cell_size = cell.size * (cell.uniform ? 1. : 0.5);
+    Tensor<1, dim> onwards;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double *x = points.data(points.position, d);
+        const auto [first, last] =
+          std::minmax_element(members_.begin(),
+                              members_.end(),
+                              [x](const unsigned int p, const unsigned int q) {
+                                return x[p] < x[q];
+                              });
+        const double middle = 0.5 * (x[*first] + x[*last]) - cell.lower[d];
+        onwards[d]          = (middle > (0.5 + 1e-9) * cell.size ? -1. : 1.);
+      }
+    const auto is_before = [&](const unsigned int p, const unsigned int q) {
+      for (unsigned int k = 0; k < dim; ++k)
         {
-          const double *x = points.data(points.position, (axis + d) % dim);
+          const unsigned int d = (axis + k) % dim;
+          const double      *x = points.data(points.position, d);
           if (x[p] != x[q])
-            return x[p] < x[q];
+            return onwards[d] * (x[q] - x[p]) > 0;
         }
       return p < q;
     };
-    std::sort(members_.begin(), members_.end(), is_lower);
+    std::sort(members_.begin(), members_.end(), is_before);
     double loss = 0;
     for (std::size_t i = 0; i < members_.size();)
       {
@@ -191,8 +211,6 @@ namespace talus
 
 
 
-  // If a neighbour is smaller, take half the size of the cell: its points may
-  // enter the smaller cell in the next step.
   template <int dim>
   double
   Merger<dim>::merge(Points<dim>               &points,
@@ -212,14 +230,13 @@ namespace talus
         if (fraction < volume_fraction_ || (is_kept_ && is_kept_(segment.body)))
           continue;
         const Cell<dim> &cell = grid.cells()[segment.cell];
-        const double     size = cell.size * (cell.uniform ? 1. : 0.5);
         members_.clear();
         for (unsigned int p = segment.begin; p < segment.end; ++p)
           if (merge_ == "all" || points.data(points.generation)[p] > 0)
             members_.push_back(p);
         double of_segment = 0;
         for (unsigned int d = 0; d < dim; ++d)
-          of_segment += merge_along(d, points, rule, size, splitter);
+          of_segment += merge_along(d, points, rule, cell, splitter);
         loss += of_segment *
                 (added_mass.empty() ? 1. : 1. + added_mass[segment.body]);
       }

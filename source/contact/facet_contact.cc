@@ -119,7 +119,8 @@ namespace talus
     const unsigned int n_sweeps = (!has_begun_         ? n_first_sweeps
                                    : obstacles_.move() ? n_sweeps_moving
                                                        : n_sweeps_at_rest);
-    for (unsigned int s = 0; s < n_sweeps; ++s)
+    const unsigned int n_s = getenv("T_SW") ? atoi(getenv("T_SW")) : n_sweeps;
+    for (unsigned int s = 0; s < n_s; ++s)
       sweep(state);
     for (const unsigned int c : constraints_.loaded())
       impulses_[c].mean_normal =

@@ -13,16 +13,17 @@ namespace talus
 
   namespace
   {
-    /// Coordinate axis nearest to the normal of a facet.
+    /// Return whether @p axis is nearest to the normal of a facet. The edge of
+    /// a box may have several nearest axes.
     template <int dim>
-    unsigned int
-    axis_across(const ContactFacet<dim> &facet)
+    bool
+    is_across(const ContactFacet<dim> &facet, const unsigned int axis)
     {
-      unsigned int axis = 0;
-      for (unsigned int d = 1; d < dim; ++d)
-        if (std::abs(facet.normal[d]) > std::abs(facet.normal[axis]))
-          axis = d;
-      return axis;
+      for (unsigned int d = 0; d < dim; ++d)
+        if (std::abs(facet.normal[axis]) <
+            (1. - 1e-6) * std::abs(facet.normal[d]))
+          return false;
+      return true;
     }
 
 
@@ -76,18 +77,18 @@ namespace talus
     index_segments(state);
     if (obstacles_.move())
       samples_.clear();
-    samples_.resize(owned.size());
-    reached_.assign(owned.size(), {});
-    n_samples_.assign(owned.size(), 0);
+    samples_.resize(dim * owned.size());
+    reached_.assign(dim * owned.size(), {});
+    n_samples_.assign(dim * owned.size(), 0);
     shares_.assign(owned.size(), 1.);
-    for (unsigned int f = 0; f < owned.size(); ++f)
-      if (is_thin(fractions[f]))
+    for (unsigned int i = 0; i < dim * owned.size(); ++i)
+      if (const ContactFacet<dim> &facet = owned[i / dim];
+          is_thin(fractions[i / dim]) && is_across(facet, i % dim))
         {
-          Samples &samples = samples_[f];
-          if (samples.places == 0)
-            samples = samples_of(state.grid, owned[f]);
-          n_samples_[f] = samples.size();
-          reached_[f]   = reached_samples(state, owned[f], samples);
+          if (samples_[i].places == 0)
+            samples_[i] = samples_of(state.grid, facet, i % dim);
+          n_samples_[i] = samples_[i].size();
+          reached_[i]   = reached_samples(state, facet, samples_[i]);
         }
     if (!state.grid.neighbor_ranks().empty())
       {
@@ -99,9 +100,19 @@ namespace talus
                            });
       }
     for (unsigned int f = 0; f < owned.size(); ++f)
-      if (n_samples_[f] > 0)
-        shares_[f] =
-          double(__builtin_popcount(reached_[f].covered())) / n_samples_[f];
+      if (is_thin(fractions[f]))
+        {
+          double       sum    = 0;
+          unsigned int n_axes = 0;
+          for (unsigned int i = dim * f; i < dim * (f + 1); ++i)
+            if (n_samples_[i] > 0)
+              {
+                sum += double(__builtin_popcount(reached_[i].covered())) /
+                       n_samples_[i];
+                ++n_axes;
+              }
+          shares_[f] = sum / n_axes;
+        }
   }
 
 
@@ -153,18 +164,19 @@ namespace talus
 
 
   /// Return the sample points of a facet: places of its plane at the centres of
-  /// columns of the cell along the axis nearest to the normal, inside the cell
-  /// and outside of all obstacles. The centroid if no place is left.
+  /// columns of the cell along @p axis, inside the cell and outside of all
+  /// obstacles. The centroid if no place is left.
   template <int dim>
   typename FacetCoverage<dim>::Samples
   FacetCoverage<dim>::samples_of(const Grid<dim>         &grid,
-                                 const ContactFacet<dim> &facet) const
+                                 const ContactFacet<dim> &facet,
+                                 const unsigned int       axis) const
   {
-    const Cell<dim>   &cell      = grid.cells()[facet.cell];
-    const double       tolerance = 1e-6 * cell.size;
-    const bool         is_shared = shares_cell(facet);
-    Samples            samples;
-    const unsigned int axis = samples.axis = axis_across(facet);
+    const Cell<dim> &cell      = grid.cells()[facet.cell];
+    const double     tolerance = 1e-6 * cell.size;
+    const bool       is_shared = shares_cell(facet);
+    Samples          samples;
+    samples.axis = axis;
     for (unsigned int k = 0; k < dim - 1; ++k)
       for (unsigned int j = 0; j < n_columns; ++j)
         samples.column[k][j] =
@@ -395,7 +407,7 @@ namespace talus
 
 
   /// Fill the messages to the owners of ghost cells. Per facet: key of the
-  /// cell, number_in_cell(), masks.
+  /// cell, number_in_cell() and axis, masks.
   template <int dim>
   void
   FacetCoverage<dim>::pack_ghosts(const State<dim>          &state,
@@ -407,12 +419,13 @@ namespace talus
     outgoing_.resize(ranks.size());
     for (auto &message : outgoing_)
       message.clear();
-    for (unsigned int f = 0; f < ghosts.size(); ++f)
+    for (unsigned int i = 0; i < dim * ghosts.size(); ++i)
       {
-        if (!is_thin(fractions[f]))
+        const unsigned int f = i / dim, axis = i % dim;
+        if (!is_thin(fractions[f]) || !is_across(ghosts[f], axis))
           continue;
         const Reached reached =
-          reached_samples(state, ghosts[f], samples_of(grid, ghosts[f]));
+          reached_samples(state, ghosts[f], samples_of(grid, ghosts[f], axis));
         const auto to = std::lower_bound(ranks.begin(),
                                          ranks.end(),
                                          grid.owner_of_cell(ghosts[f].cell)) -
@@ -421,7 +434,7 @@ namespace talus
         static_assert(sizeof(key) == sizeof(ghosts[f].key));
         std::memcpy(&key, &ghosts[f].key, sizeof(key));
         outgoing_[to].push_back(key);
-        outgoing_[to].push_back(number_in_cell(ghosts, f));
+        outgoing_[to].push_back(dim * number_in_cell(ghosts, f) + axis);
         for (const Mask mask : reached.from)
           outgoing_[to].push_back(mask);
       }
@@ -440,16 +453,16 @@ namespace talus
       {
         unsigned long key;
         std::memcpy(&key, &message[i], sizeof(key));
-        const unsigned int c     = grid.cell_of_key(key);
-        const auto         first = std::lower_bound(owned.begin(),
+        const unsigned int c       = grid.cell_of_key(key);
+        const auto         first   = std::lower_bound(owned.begin(),
                                             owned.end(),
                                             c,
                                             [](const ContactFacet<dim> &facet,
                                                const unsigned int       cell) {
                                               return facet.cell < cell;
                                             });
-        Reached           &reached =
-          reached_[first - owned.begin() + (unsigned int)(message[i + 1])];
+        Reached           &reached = reached_[dim * (first - owned.begin()) +
+                                    (unsigned int)(message[i + 1])];
         for (unsigned int k = 0; k < n_masks; ++k)
           reached.from[k] |= Mask(message[i + 2 + k]);
       }

@@ -27,7 +27,7 @@ namespace talus
     // Two directions around a convex edge are joined if the vector area of both
     // is more than this fraction of the area: 0.71 for 90 degrees, 0 for the
     // two sides of a wall.
-    constexpr double min_joint_vector_area = 0.6;
+    static const double min_joint_vector_area = getenv("T_J")? atof(getenv("T_J")):0.6;
 
 
 

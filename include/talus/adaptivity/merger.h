@@ -130,7 +130,7 @@ namespace talus
     merge_along(unsigned int         axis,
                 Points<dim>         &points,
                 BoxRule              rule,
-                double               cell_size,
+                const Cell<dim>     &cell,
                 const Splitter<dim> &splitter);
     double
     merge_pair(Points<dim>          &points,

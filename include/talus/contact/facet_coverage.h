@@ -65,7 +65,7 @@ namespace talus
     /// so one comparison per column tests all sample points of the column.
     struct Samples
     {
-      unsigned int axis   = 0; ///< nearest to the normal
+      unsigned int axis   = 0; ///< of those nearest to the normal
       Mask         places = 0; ///< sample points; none: not yet computed
       /// Coordinate of each column, m, by axis across the facet.
       std::array<std::array<double, n_columns>, dim - 1> column{};
@@ -99,7 +99,9 @@ namespace talus
     };
 
     Samples
-    samples_of(const Grid<dim> &grid, const ContactFacet<dim> &facet) const;
+    samples_of(const Grid<dim>         &grid,
+               const ContactFacet<dim> &facet,
+               unsigned int             axis) const;
     bool
     is_open(const Cell<dim>          &cell,
             const ContactFacet<dim>  &facet,
@@ -129,12 +131,14 @@ namespace talus
     void
     receive(const Grid<dim> &grid, const NeighborExchange::Message &message);
 
-    const Obstacles<dim>                  &obstacles_;
-    const Facets<dim>                     &facets_;
-    std::vector<Samples>                   samples_;       ///< by owned facet
-    std::vector<unsigned int>              first_segment_; ///< by owned cell
-    std::vector<Reached>                   reached_;       ///< by owned facet
+    const Obstacles<dim> &obstacles_;
+    const Facets<dim>    &facets_;
+    // By owned facet and axis: the share of a facet is the mean over the axes
+    // nearest to its normal.
+    std::vector<Samples>                   samples_;
+    std::vector<Reached>                   reached_;
     std::vector<unsigned int>              n_samples_;     ///< 0: not sampled
+    std::vector<unsigned int>              first_segment_; ///< by owned cell
     std::vector<double>                    shares_;        ///< by owned facet
     NeighborExchange                       messages_;
     std::vector<NeighborExchange::Message> outgoing_; ///< by neighbour
