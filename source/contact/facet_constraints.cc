@@ -234,6 +234,10 @@ namespace talus
             free -= facet.normal[d] * facet.normal[d];
         inverse_mass += inverse;
         inverse_normal_mass += free * inverse;
+        static const bool mean = getenv("T_M");
+        if (mean)
+          constraint.gap = (v==0||constraint.gap==NodalGaps<dim>::none?0:constraint.gap) + share*gaps_.room(node, facet.obstacle, facet.cell_size);
+        else
         constraint.gap =
           std::min(constraint.gap,
                    gaps_.room(node, facet.obstacle, facet.cell_size));

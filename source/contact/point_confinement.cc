@@ -182,19 +182,19 @@ namespace talus
 
   /// Return distance from the obstacle of a candidate, m, and normal at @p x.
   /// The distance from a terrain is costly, and most of the bed is flat within
-  /// a cell. An obstacle that moves has left the plane of the facet.
+  /// a cell. The facet has moved by @p drift, m, with the obstacle.
   template <int dim>
   std::pair<double, Tensor<1, dim>>
-  PointConfinement<dim>::distance_and_normal(const Candidate  &candidate,
-                                             const Point<dim> &x) const
+  PointConfinement<dim>::distance_and_normal(const Candidate      &candidate,
+                                             const Point<dim>     &x,
+                                             const Tensor<1, dim> &drift) const
   {
-    const Obstacle<dim>           &obstacle = obstacles_[candidate.obstacle];
-    const ContactFacet<dim> *const facet    = candidate.facet;
-    if (facet && facet->is_flat && !obstacle.moves())
-      return {facet->distance_from_plane(x), facet->normal};
+    const ContactFacet<dim> *const facet = candidate.facet;
+    if (facet && facet->is_flat)
+      return {facet->distance_from_plane(x - drift), facet->normal};
     if (candidate.table && candidate.table->reaches(x))
       return candidate.table->distance_and_normal(x);
-    return obstacle.distance_and_normal(x);
+    return obstacles_[candidate.obstacle].distance_and_normal(x);
   }
 
 
@@ -215,13 +215,13 @@ namespace talus
         facet->distance_from_plane(x) >
           facet->deviation + support_of_box(candidate.half, facet->normal))
       return false;
-    const auto [of_centre, normal] = distance_and_normal(candidate, x);
+    const Tensor<1, dim> drift =
+      dt * obstacles_[candidate.obstacle].velocity_at(x, time + 0.5 * dt);
+    const auto [of_centre, normal] = distance_and_normal(candidate, x, drift);
     const double distance = of_centre - support_of_box(candidate.half, normal);
     if (distance >= 0)
       return false;
-    const Obstacle<dim> &obstacle = obstacles_[candidate.obstacle];
-    const Tensor<1, dim> drift = dt * obstacle.velocity_at(x, time + 0.5 * dt);
-    const double         inwards = (drift - (x - candidate.place)) * normal;
+    const double inwards = (drift - (x - candidate.place)) * normal;
     if (inwards <= 0)
       return false;
     x += std::min(inwards, -distance) * normal;

@@ -25,9 +25,9 @@ namespace talus
     constexpr double same_direction = 0.5;
 
     // Two directions around a convex edge are joined if the vector area of both
-    // is more than this fraction of the area: 0.71 for 90 degrees, 0 for the
-    // two sides of a wall.
-    static const double min_joint_vector_area = getenv("T_J")? atof(getenv("T_J")):0.6;
+    // is more than this fraction of the area: 0.71 for 90 degrees, 0.58 for the
+    // corner of a box, 0 for the two sides of a wall.
+    constexpr double min_joint_vector_area = 0.55;
 
 
 

@@ -17,8 +17,9 @@ namespace talus
   namespace
   {
     /// Minimum volume fraction of a box for a point: points much lighter than
-    /// the neighbours become unstable.
-    constexpr double min_fraction = 0.2;
+    /// the neighbours become unstable. Just below a fifth, so that round-off
+    /// does not decide about boxes with a fifth.
+    constexpr double min_fraction = 0.2 - 1e-9;
 
     /// Volume fraction of a box below which soil counts as round-off, far below
     /// the error of the parts: beyond the end of a layer both surfaces

@@ -193,7 +193,7 @@ namespace talus
 
     // Parameters
     std::string maximum_shear_stress_text_ = "1000";
-    bool        has_gap_                   = false;
+    bool        has_gap_                   = true;
 
     InterfaceFriction      friction_;
     NormalForceMemory<dim> memory_;

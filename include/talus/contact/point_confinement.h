@@ -63,8 +63,9 @@ namespace talus
                   const Segment           &segment,
                   const ContactFacet<dim> &facet);
     std::pair<double, dealii::Tensor<1, dim>>
-    distance_and_normal(const Candidate          &candidate,
-                        const dealii::Point<dim> &x) const;
+    distance_and_normal(const Candidate              &candidate,
+                        const dealii::Point<dim>     &x,
+                        const dealii::Tensor<1, dim> &drift) const;
 
     bool
     confine(const Candidate    &candidate,
