@@ -9,13 +9,6 @@ namespace talus
 {
   using namespace dealii;
 
-  namespace
-  {
-    constexpr unsigned int bottom = 2; ///< face of the mesh, in 2-D and 3-D
-  }                                    // namespace
-
-
-
   template <int dim>
   Seabed<dim>::Seabed()
     : ParameterAcceptor("/Boundaries/Seabed")
@@ -155,7 +148,7 @@ namespace talus
                      InterfaceFriction::averaging_weight(speed * dt,
                                                          cell_size));
     const double area = contact_area(nodes, grid, face, node);
-    if (face == bottom && mean_normal_force > 0)
+    if (face == bottom_face && mean_normal_force > 0)
       area_in_contact_ += area;
     const double largest_friction =
       limit(face, node, area).force(mean_normal_force);

@@ -30,7 +30,12 @@ namespace talus
     : obstacles_(obstacles)
     , boundaries_(boundaries)
     , reactions_(obstacles.size())
-  {}
+  {
+    boundaries_.set_covered_area(
+      [this](const unsigned int face, const unsigned int node) {
+        return soil_.at_faces().area(face, node);
+      });
+  }
 
 
 
@@ -43,7 +48,7 @@ namespace talus
   FacetContact<dim>::prepare(const Grid<dim> &grid)
   {
     if (obstacles_.empty())
-      return;
+      return soil_.prepare(grid, boundaries_.seabed_faces());
     std::vector<double> rows;
     for (const auto &of_rank :
          Utilities::MPI::all_gather(grid.communicator(), impulses_.rows()))
@@ -54,7 +59,8 @@ namespace talus
     if (keeps_slip())
       slip_.prepare(places_of_facets(), grid.communicator());
     nodes_.prepare(grid);
-    constraints_.prepare(grid);
+    soil_.prepare(grid, boundaries_.seabed_faces());
+    constraints_.prepare();
   }
 
 
@@ -138,8 +144,6 @@ namespace talus
   void
   FacetContact<dim>::find_constraints(const State<dim> &state)
   {
-    take_restored(state);
-    constraints_.find_gaps(state);
     nodes_.load(state);
     constraints_.find(state, /*has_memory=*/has_begun_);
   }
@@ -185,17 +189,17 @@ namespace talus
   void
   FacetContact<dim>::begin_step(State<dim> &state)
   {
-    if (obstacles_.empty())
-      return;
     take_restored(state);
-    if (!obstacles_.move())
-      return;
-    const std::vector<double> rows = impulses_.rows();
-    obstacles_.advance(state.time, state.time_step);
-    facets_.update(state.grid, obstacles_);
-    impulses_.take(rows);
-    if (keeps_slip())
-      slip_.update(places_of_facets());
+    if (obstacles_.move())
+      {
+        const std::vector<double> rows = impulses_.rows();
+        obstacles_.advance(state.time, state.time_step);
+        facets_.update(state.grid, obstacles_);
+        impulses_.take(rows);
+        if (keeps_slip())
+          slip_.update(places_of_facets());
+      }
+    soil_.find(state);
   }
 
 

@@ -8,13 +8,6 @@ namespace talus
 {
   using namespace dealii;
 
-  namespace
-  {
-    constexpr unsigned int bottom_face = 2; // in both dimensions
-  }
-
-
-
   /// Add a place of the bed, distributed over a cell around the place.
   template <int dim>
   void

@@ -132,7 +132,7 @@ namespace talus
            Utilities::MPI::all_gather(grid.communicator(), this->rows()))
         rows.insert(rows.end(), of_rank.begin(), of_rank.end());
     solid_.prepare(grid);
-    coverage_.prepare(grid);
+    at_bottom_.prepare(grid, 1u << bottom_face);
     std::vector<std::vector<unsigned int>> cells(grid.n_nodes());
     for (unsigned int c = 0; c < grid.cells().size(); ++c)
       for (const unsigned int node : grid.cells()[c].nodes())
@@ -248,6 +248,10 @@ namespace talus
                          const FacetContact<dim> &contact)
   {
     const Grid<dim> &grid = state.grid;
+    // Records of other ranks come back by messages.
+    filled_nodes_.insert(filled_nodes_.end(),
+                         grid.interface_nodes().begin(),
+                         grid.interface_nodes().end());
     for (const unsigned int node : filled_nodes_)
       std::fill_n(record(node), width, 0.);
     filled_nodes_.clear();
@@ -256,7 +260,7 @@ namespace talus
     restored_.clear();
     is_restored_ = false;
     solid_.update(grid, contact);
-    fill_records(state);
+    fill_records(state, contact);
     list_cells(state);
     find_vector_areas(grid);
     for (const unsigned int c : surface_cells_)
@@ -279,12 +283,37 @@ namespace talus
 
 
 
+  /// Add the areas of the facets in contact with soil to the records of their
+  /// nodes.
+  template <int dim>
+  void
+  FreeSurface<dim>::add_contact_areas(const FacetContact<dim> &contact)
+  {
+    const auto &facets = contact.facets().owned();
+    for (unsigned int f = 0; f < facets.size(); ++f)
+      {
+        const double area = facets[f].area * contact.soil().share(f);
+        for (unsigned int v = 0; v < facets[f].node.size() && area > 0; ++v)
+          {
+            record(facets[f].node[v])[facets_covered] +=
+              facets[f].shape_value[v] * area;
+            filled_nodes_.push_back(facets[f].node[v]);
+          }
+      }
+  }
+
+
+
   /// Fill the records of all nodes. Collective.
   template <int dim>
   void
-  FreeSurface<dim>::fill_records(const State<dim> &state)
+  FreeSurface<dim>::fill_records(const State<dim>        &state,
+                                 const FacetContact<dim> &contact)
   {
     const NodalFields<dim> &nodes = state.nodes;
+    if (solid_.exists())
+      add_contact_areas(contact);
+    exchange_.add_to_owners(records_.data());
     for (const unsigned int node : nodes.active_nodes())
       if (nodes.mass(node) > state.constants.mass_cutoff)
         {
@@ -292,16 +321,12 @@ namespace talus
             std::min(1., nodes.volume(node) / solid_.open_volume(node));
           filled_nodes_.push_back(node);
         }
-    exchange_.copy_to_ghosts(records_.data()); // volume fractions
-    coverage_.find(state, solid_, [this](const unsigned int node) {
-      return record(node)[fraction];
-    });
-    for (const unsigned int node : filled_nodes_)
-      {
-        double *const to   = record(node);
-        to[facets_covered] = coverage_.of_facets(node, to[fraction], solid_);
-        to[bottom]         = coverage_.of_bottom(node, to[fraction]);
-      }
+    at_bottom_.find(state);
+    at_bottom_.for_each_node(
+      [&](const unsigned int face, const unsigned int node) {
+        double *const to = record(node);
+        to[bottom] = at_bottom_.share(state.grid, face, node, to[fraction]);
+      });
     exchange_.copy_to_ghosts(records_.data());
     for (const HangingNode &hanging : state.grid.hanging_nodes())
       {
@@ -402,7 +427,7 @@ namespace talus
     double covered = 0, area = 0;
     for (const unsigned int node : nodes)
       {
-        covered += record(node)[facets_covered] * solid_.facet_area(node);
+        covered += record(node)[facets_covered];
         area += solid_.facet_area(node);
       }
     return area > 0 ? covered / area : 0.;
@@ -420,10 +445,9 @@ namespace talus
   FreeSurface<dim>::integrate_gradient(const Grid<dim> &grid,
                                        const Cell<dim> &cell) const
   {
-    constexpr unsigned int bottom_bit = 1u << 2;
-    const auto             nodes      = cell.nodes();
-    const double           face       = face_of<dim>(cell) / power(2, dim - 1);
-    const double           covered =
+    const auto   nodes = cell.nodes();
+    const double face  = face_of<dim>(cell) / power(2, dim - 1);
+    const double covered =
       solid_.exists() ? covered_share_of_facets(nodes) : 0.;
     Tensor<1, dim> result;
     for (unsigned int v = 0; v < nodes.size(); ++v)
@@ -433,7 +457,8 @@ namespace talus
         const double        u    = (1. - b) * node[fraction] + covered * b;
         for (unsigned int d = 0; d < dim; ++d)
           result[d] += ((v >> d) & 1) ? -u : u;
-        if (((v >> 1) & 1) == 0 && (grid.faces_of_node(nodes[v]) & bottom_bit))
+        if (((v >> 1) & 1) == 0 &&
+            (grid.faces_of_node(nodes[v]) & (1u << bottom_face)))
           result[1] += (solid_.contains(nodes[v])
                           ? covered - u
                           : (1. - b) * (node[bottom] - node[fraction]));

@@ -50,7 +50,7 @@ namespace talus
     }
 
     /// Area of @p face at @p node covered by boxes of points, m^(dim-1), from
-    /// SeabedCoverage; may slightly exceed the node's share of the face. Until
+    /// FaceCoverage; may slightly exceed the node's share of the face. Until
     /// set_covered_area() everything counts as covered.
     using CoveredArea =
       std::function<double(unsigned int face, unsigned int node)>;

@@ -4,7 +4,6 @@
 
 #include <talus/contact/facet_contact.h>
 #include <talus/state/state.h>
-#include <talus/water/bed_coverage.h>
 #include <talus/water/solid_at_nodes.h>
 
 #include <array>
@@ -47,8 +46,8 @@ namespace talus
     void
     prepare(const Grid<dim> &grid);
 
-    /// Compute the facets in owned cells from the sums at the nodes and the
-    /// boxes of the points. Call update_soil() afterwards. Collective.
+    /// Compute the facets in owned cells from the sums at the nodes, the boxes of
+    /// the points and the soil at obstacles. Call update_soil() afterwards. Collective.
     void
     find(const State<dim> &state, const FacetContact<dim> &contact);
 
@@ -112,8 +111,9 @@ namespace talus
   private:
     using NodesOfCell = std::array<unsigned int, power(2, dim)>;
 
-    // By node: volume fraction of soil in the open volume [-], covered shares
-    // of facets and of the lower face of the mesh [-].
+    // By node: volume fraction of soil in the open volume [-], area of the
+    // facets around the node in contact, m^(dim-1), and share of the lower face
+    // of the mesh in contact [-].
     enum Record
     {
       fraction,
@@ -144,7 +144,9 @@ namespace talus
     void
     clear_cells(const Grid<dim> &grid);
     void
-    fill_records(const State<dim> &state);
+    fill_records(const State<dim> &state, const FacetContact<dim> &contact);
+    void
+    add_contact_areas(const FacetContact<dim> &contact);
     void
     make_facets(const std::vector<double> &rows, const Grid<dim> &grid);
     void
@@ -172,7 +174,7 @@ namespace talus
     set_mobilities(const Grid<dim> &grid);
 
     SolidAtNodes<dim>          solid_;
-    BedCoverage<dim>           coverage_;
+    FaceCoverage<dim>          at_bottom_;
     std::vector<unsigned int>  first_cell_, cells_; ///< by node, with ghosts
     NodalExchange<dim>         exchange_, exchange_of_soil_, exchange_of_areas_;
     NodalExchange<dim>         exchange_of_loads_;
