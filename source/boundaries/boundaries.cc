@@ -354,8 +354,7 @@ namespace talus
     BoundaryWork<dim> work;
     bed_friction_.clear();
     if (has_seabed())
-      seabed_.slip().begin_step(grid.communicator());
-    seabed_.begin_step();
+      seabed_.begin_step(grid.communicator());
     for (const unsigned int node : nodes.active_boundary_nodes())
       if (nodes.mass(node) > mass_cutoff)
         apply_to_node(nodes, grid, node, t, dt, work);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/assertion.h>
 #include <talus/contact/facet_contact.h>
 #include <talus/contact/impulse_projection.h>
 
@@ -39,23 +40,15 @@ namespace talus
 
 
 
-  // A change of the mesh changes numbers and owners of cells, facets and nodes,
-  // but not the key of a cell. Each rank selects rows from the impulses of all
-  // ranks. There are only as many rows as facets with soil, and the mesh
-  // changes seldom.
   template <int dim>
   void
   FacetContact<dim>::prepare(const Grid<dim> &grid)
   {
     if (obstacles_.empty())
       return soil_.prepare(grid, boundaries_.seabed_faces());
-    std::vector<double> rows;
-    for (const auto &of_rank :
-         Utilities::MPI::all_gather(grid.communicator(), impulses_.rows()))
-      rows.insert(rows.end(), of_rank.begin(), of_rank.end());
     obstacles_.locate(); // a checkpoint may have restored their places
     facets_.prepare(grid, obstacles_);
-    impulses_.take(rows);
+    impulses_.move_to(keys_of(facets_.owned()), grid.communicator());
     if (keeps_slip())
       slip_.prepare(places_of_facets(), grid.communicator());
     nodes_.prepare(grid);
@@ -71,8 +64,20 @@ namespace talus
   {
     std::vector<BedPlace<dim>> result;
     for (const ContactFacet<dim> &facet : facets_.owned())
-      result.push_back({name_of(facet), facet.centroid, facet.area});
+      result.push_back({key_of(facet), facet.centroid, facet.area});
     return result;
+  }
+
+
+
+  /// Give impulses and slip to the present facets of this rank.
+  template <int dim>
+  void
+  FacetContact<dim>::update_places()
+  {
+    impulses_.update(keys_of(facets_.owned()));
+    if (keeps_slip())
+      slip_.update(places_of_facets());
   }
 
 
@@ -156,7 +161,9 @@ namespace talus
   void
   FacetContact<dim>::set_forces(const std::vector<FacetImpulse<dim>> &forces)
   {
-    impulses_.set(forces);
+    TalusAssert(forces.size() == impulses_.size(),
+                ExcDimensionMismatch(forces.size(), impulses_.size()));
+    std::copy(forces.begin(), forces.end(), impulses_.begin());
     previous_time_step_ = 1.;
     has_begun_          = true;
   }
@@ -170,16 +177,14 @@ namespace talus
   void
   FacetContact<dim>::take_restored(const State<dim> &state)
   {
-    if (!impulses_.has_restored())
+    if (!impulses_.is_waiting())
       return;
     if (obstacles_.move())
       {
         obstacles_.locate();
         facets_.prepare(state.grid, obstacles_);
-        if (keeps_slip())
-          slip_.update(places_of_facets());
       }
-    impulses_.take_restored();
+    update_places();
   }
 
 
@@ -192,12 +197,9 @@ namespace talus
     take_restored(state);
     if (obstacles_.move())
       {
-        const std::vector<double> rows = impulses_.rows();
         obstacles_.advance(state.time, state.time_step);
         facets_.update(state.grid, obstacles_);
-        impulses_.take(rows);
-        if (keeps_slip())
-          slip_.update(places_of_facets());
+        update_places();
       }
     soil_.find(state);
   }
@@ -411,7 +413,7 @@ namespace talus
              Reduction::equal);
     for (unsigned int k = 0; k < obstacles_.size(); ++k)
       reactions_[k].list_state("obstacle " + obstacles_[k].name(), list);
-    impulses_.list_state(list);
+    impulses_.list_state("facet impulses", list);
     if (obstacles_.soften())
       slip_.list_state("slip of obstacles", list);
   }

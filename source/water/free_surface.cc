@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/base/key_halves.h>
 #include <talus/water/free_surface.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -126,11 +123,6 @@ namespace talus
   void
   FreeSurface<dim>::prepare(const Grid<dim> &grid)
   {
-    std::vector<double> rows;
-    if (!is_restored_)
-      for (const std::vector<double> &of_rank :
-           Utilities::MPI::all_gather(grid.communicator(), this->rows()))
-        rows.insert(rows.end(), of_rank.begin(), of_rank.end());
     solid_.prepare(grid);
     at_bottom_.prepare(grid, 1u << bottom_face);
     std::vector<std::vector<unsigned int>> cells(grid.n_nodes());
@@ -159,53 +151,27 @@ namespace talus
     filled_nodes_.clear();
     soil_nodes_.clear();
     listed_cells_.clear();
-    facets_.clear();
-    key_of_facet_.clear();
-    make_facets(rows, grid);
+    move_facets(grid);
   }
 
 
 
-  template <int dim>
-  std::vector<double>
-  FreeSurface<dim>::rows() const
-  {
-    std::vector<double> rows;
-    for (unsigned int k = 0; k < facets_.size(); ++k)
-      {
-        const auto [upper, lower] = halves_of_key(key_of_facet_[k]);
-        rows.insert(rows.end(), {upper, lower});
-        for (const auto &vector : {facets_[k].vector_area, facets_[k].normal})
-          for (unsigned int d = 0; d < dim; ++d)
-            rows.push_back(vector[d]);
-      }
-    return rows;
-  }
-
-
-
-  /// Make facets of the @p rows of all ranks in owned cells. The order is kept:
-  /// sums over facets in a resumed run give the same bits.
+  /// Move the facets to the ranks that own their cells. The order is kept: sums
+  /// over facets in a resumed run give the same bits.
   template <int dim>
   void
-  FreeSurface<dim>::make_facets(const std::vector<double> &rows,
-                                const Grid<dim>           &grid)
+  FreeSurface<dim>::move_facets(const Grid<dim> &grid)
   {
-    for (std::size_t r = 0; r < rows.size(); r += n_columns)
-      {
-        const unsigned long key = key_of_halves(rows[r], rows[r + 1]);
-        const unsigned int  c   = grid.cell_of_key(key);
-        if (c >= grid.n_owned_cells())
-          continue;
-        SurfaceFacet<dim> &facet = facets_.emplace_back();
-        facet.node               = grid.cells()[c].nodes();
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            facet.vector_area[d] = rows[r + 2 + d];
-            facet.normal[d]      = rows[r + 2 + dim + d];
-          }
-        key_of_facet_.push_back(key);
-      }
+    const auto cell_of = [&grid](const PlaceKey &place) {
+      return grid.cell_of_key(key_of_halves(place[0], place[1]));
+    };
+    facets_.move_to(
+      [&](const PlaceKey &place) {
+        return cell_of(place) < grid.n_owned_cells();
+      },
+      grid.communicator());
+    for (unsigned int k = 0; k < facets_.size(); ++k)
+      facets_[k].node = grid.cells()[cell_of(facets_.places()[k])].nodes();
     list_nodes_of_facets(grid);
   }
 
@@ -226,7 +192,7 @@ namespace talus
         nodes_of_facets_.push_back(node);
       is_node_of_facets_[node] = 1;
     };
-    for (const SurfaceFacet<dim> &facet : facets_)
+    for (const SurfaceFacet<dim> &facet : facets())
       std::for_each(facet.node.begin(), facet.node.end(), add);
     std::for_each(grid.interface_nodes().begin(),
                   grid.interface_nodes().end(),
@@ -256,27 +222,21 @@ namespace talus
       std::fill_n(record(node), width, 0.);
     filled_nodes_.clear();
     facets_.clear();
-    key_of_facet_.clear();
-    restored_.clear();
-    is_restored_ = false;
     solid_.update(grid, contact);
     fill_records(state, contact);
     list_cells(state);
     find_vector_areas(grid);
     for (const unsigned int c : surface_cells_)
       {
-        const Cell<dim>   &cell     = grid.cells()[c];
-        const double       min_area = min_area_in_cell * face_of<dim>(cell);
-        SurfaceFacet<dim> &facet    = facets_.emplace_back();
+        const Cell<dim>  &cell     = grid.cells()[c];
+        const double      min_area = min_area_in_cell * face_of<dim>(cell);
+        SurfaceFacet<dim> facet    = {};
         if (!set_surface(cell, vector_areas_[c], facet))
-          {
-            facets_.pop_back();
-            continue;
-          }
+          continue;
         if (vector_areas_[c].norm_square() < square(2. * min_area))
           facet.vector_area *= vector_areas_[c].norm() / min_area - 1.;
         facet.node = cell.nodes();
-        key_of_facet_.push_back(grid.key_of_cell(c));
+        facets_.push_back(place_key(grid.key_of_cell(c)), facet);
       }
     list_nodes_of_facets(grid);
   }
@@ -519,10 +479,8 @@ namespace talus
   void
   FreeSurface<dim>::update_soil(const State<dim> &state)
   {
-    if (is_restored_)
-      make_facets(restored_, state.grid);
-    restored_.clear();
-    is_restored_                  = false;
+    if (facets_.is_waiting())
+      move_facets(state.grid);
     const NodalFields<dim> &nodes = state.nodes;
     for (const unsigned int node : nodes_of_facets_)
       {
@@ -589,7 +547,7 @@ namespace talus
     std::fill(area_per_mass_.begin() + grid.n_owned_nodes(),
               area_per_mass_.end(),
               0.);
-    for (const SurfaceFacet<dim> &facet : facets_)
+    for (const SurfaceFacet<dim> &facet : facets())
       {
         double soil = 0;
         for (const unsigned int node : facet.node)

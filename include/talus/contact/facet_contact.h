@@ -169,8 +169,8 @@ namespace talus
     void
     restore(const std::vector<double> &saved)
     {
-      impulses_.restore({});
-      impulses_.take(saved);
+      impulses_.restore(saved);
+      impulses_.update(impulses_.places());
     }
 
     /// Area that soil has slipped over, and the largest slip, where a surface
@@ -189,6 +189,8 @@ namespace talus
     }
     std::vector<BedPlace<dim>>
     places_of_facets() const;
+    void
+    update_places();
     void
     add_slip(const State<dim> &state);
     void
@@ -217,7 +219,7 @@ namespace talus
     Obstacles<dim>            &obstacles_;
     Boundaries<dim>           &boundaries_;
     Facets<dim>                facets_;
-    FacetImpulses<dim>         impulses_{facets_};
+    FacetImpulses<dim>         impulses_;
     BedSlip<dim>               slip_; ///< by facet
     std::vector<Reaction<dim>> reactions_;
     bool                       has_begun_          = false;
