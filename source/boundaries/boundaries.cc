@@ -13,8 +13,6 @@ namespace talus
 
   namespace
   {
-    constexpr unsigned int bottom_face = 2; // in both dimensions
-
     template <int dim>
     using ConditionPtr = std::unique_ptr<BoundaryCondition<dim>>;
 
@@ -76,13 +74,14 @@ namespace talus
 
 
 
-  // Without a seabed, a trigger or a strength reduction of the seabed has no
-  // effect.
   template <int dim>
-  bool
-  Boundaries<dim>::has_seabed() const
+  unsigned char
+  Boundaries<dim>::seabed_faces() const
   {
-    return std::count(names_.begin(), names_.end(), "seabed") > 0;
+    unsigned char result = 0;
+    for (unsigned int face = 0; face < 2 * dim; ++face)
+      result |= is_seabed(face) << face;
+    return result;
   }
 
 
@@ -100,10 +99,7 @@ namespace talus
                       return condition->depends_on_place();
                     }))
       places_ = places_of_owned_nodes(grid);
-    unsigned char seabed_faces = 0;
-    for (unsigned int face = 0; face < 2 * dim; ++face)
-      seabed_faces |= is_seabed(face) << face;
-    seabed_.prepare_nodes(grid, seabed_faces, places_);
+    seabed_.prepare_nodes(grid, seabed_faces(), places_);
   }
 
 
@@ -358,8 +354,7 @@ namespace talus
     BoundaryWork<dim> work;
     bed_friction_.clear();
     if (has_seabed())
-      seabed_.slip().begin_step(grid.communicator());
-    seabed_.begin_step();
+      seabed_.begin_step(grid.communicator());
     for (const unsigned int node : nodes.active_boundary_nodes())
       if (nodes.mass(node) > mass_cutoff)
         apply_to_node(nodes, grid, node, t, dt, work);

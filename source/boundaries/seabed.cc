@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/base/key_halves.h>
 #include <talus/boundaries/contact_area.h>
 #include <talus/boundaries/seabed.h>
+#include <talus/grid/node_places.h>
 
 #include <algorithm>
 
 namespace talus
 {
   using namespace dealii;
-
-  namespace
-  {
-    constexpr unsigned int bottom = 2; ///< face of the mesh, in 2-D and 3-D
-  }                                    // namespace
-
-
 
   template <int dim>
   Seabed<dim>::Seabed()
@@ -58,7 +51,6 @@ namespace talus
                              const unsigned char            faces,
                              const std::vector<Point<dim>> &places)
   {
-    memory_.prepare(grid, faces);
     if (faces == 0)
       return;
     if (!cap_->number())
@@ -68,18 +60,40 @@ namespace talus
           if (grid.faces_of_node(node) & faces)
             cap_of_node_[node] = cap_->at(places[node]);
       }
-    if (!keeps_slip())
-      return;
-    std::vector<BedPlace<dim>> on_bed;
-    memory_.for_each_node([&](const unsigned long key,
-                              const unsigned int  face,
-                              const unsigned int  node) {
-      const auto [upper, lower] = halves_of_key(key);
-      on_bed.push_back({{{upper, lower, double(face), 0.}},
-                        places[node],
-                        grid.face_share(face, node).area});
-    });
-    slip_.prepare(std::move(on_bed), grid.communicator());
+    const std::vector<unsigned long> keys_of_nodes = keys_of_owned_nodes(grid);
+    std::vector<PlaceKey>            keys;
+    std::vector<BedPlace<dim>>       on_bed;
+    for (unsigned int face = 0; face < 2 * dim; ++face)
+      {
+        place_of_[face].clear();
+        for (unsigned int node = 0; node < keys_of_nodes.size(); ++node)
+          if (grid.faces_of_node(node) & faces & (1u << face))
+            {
+              place_of_[face][node] = keys.size();
+              keys.push_back(place_key(keys_of_nodes[node], face));
+              if (keeps_slip())
+                on_bed.push_back({keys.back(),
+                                  places[node],
+                                  grid.face_share(face, node).area});
+            }
+      }
+    forces_.move_to(std::move(keys), grid.communicator());
+    if (keeps_slip())
+      slip_.prepare(std::move(on_bed), grid.communicator());
+  }
+
+
+
+  template <int dim>
+  void
+  Seabed<dim>::begin_step(const MPI_Comm communicator)
+  {
+    slip_.begin_step(communicator);
+    if (forces_.is_waiting())
+      forces_.update(forces_.places());
+    for (MeanNormalForce &force : forces_)
+      force.begin_step();
+    area_in_contact_ = 0;
   }
 
 
@@ -142,20 +156,17 @@ namespace talus
     if (gap > 0 && v_n <= 0)
       return {};
 
-    Tensor<1, dim> v_t           = trial;
-    v_t[axis]                    = 0;
-    const double       speed     = v_t.norm();
-    const auto        &share     = grid.face_share(face, node);
-    const double       cell_size = 2. * share.volume / share.area;
-    const double       normal    = mass * std::max(0., v_n);
-    const unsigned int place     = place_of(face, node);
-    const double       mean_normal_force =
-      memory_.update(place,
-                     normal / dt,
-                     InterfaceFriction::averaging_weight(speed * dt,
-                                                         cell_size));
+    Tensor<1, dim> v_t                   = trial;
+    v_t[axis]                            = 0;
+    const double       speed             = v_t.norm();
+    const auto        &share             = grid.face_share(face, node);
+    const double       cell_size         = 2. * share.volume / share.area;
+    const double       normal            = mass * std::max(0., v_n);
+    const unsigned int place             = place_of(face, node);
+    const double       mean_normal_force = forces_[place].update(
+      normal / dt, InterfaceFriction::averaging_weight(speed * dt, cell_size));
     const double area = contact_area(nodes, grid, face, node);
-    if (face == bottom && mean_normal_force > 0)
+    if (face == bottom_face && mean_normal_force > 0)
       area_in_contact_ += area;
     const double largest_friction =
       limit(face, node, area).force(mean_normal_force);

@@ -59,13 +59,12 @@ namespace talus
     for (const unsigned int node : facets_.owned_nodes())
       {
         const double mass = nodes.mass(node);
-        const double room = facets_.open_volume(node);
-        if (mass <= state.constants.mass_cutoff || room <= 0)
+        if (mass <= state.constants.mass_cutoff ||
+            facets_.open_volume(node) <= 0)
           continue;
         active_.push_back(node);
         masses_.push_back(mass);
         double *const record = records_.data() + std::size_t(width) * node;
-        record[filling]      = std::min(1., nodes.volume(node) / room);
         record[splitting]    = facets_.n_facets(node) / mass;
         for (unsigned int d = 0; d < dim; ++d)
           record[moving + d] = nodes.velocity(node)[d];

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
-#include <talus/boundaries/contact_area.h>
 #include <talus/contact/facet_constraints.h>
 
 #include <deal.II/base/mpi.h>
@@ -14,107 +13,10 @@ namespace talus
 
   template <int dim>
   void
-  FacetConstraints<dim>::prepare(const Grid<dim> &grid)
+  FacetConstraints<dim>::prepare()
   {
-    prepare_gaps(grid, slots(grid));
-    coverage_.prepare(grid);
     constraints_.clear();
     loaded_.clear();
-  }
-
-
-
-  template <int dim>
-  void
-  FacetConstraints<dim>::prepare_gaps(const Grid<dim>          &grid,
-                                      std::vector<unsigned int> slots)
-  {
-    using Plane = typename NodalGaps<dim>::Plane;
-    gaps_.prepare(
-      grid,
-      surfaces(),
-      std::move(slots),
-      [this](const Point<dim> &x, const double distance) {
-        return obstacles_.near(x, distance);
-      },
-      [this](const unsigned int cell) {
-        const ContactFacet<dim> *const facet = facets_.flat_facet(cell);
-        return facet ? std::optional<Plane>(
-                         {facet->obstacle, facet->centroid, facet->normal})
-                     : std::nullopt;
-      },
-      [this, &grid](const unsigned int cell) {
-        const ContactFacet<dim> *const facet = facets_.only_surface(cell);
-        return facet ? std::make_pair(tables_.table(grid.cells()[cell], *facet),
-                                      facet->obstacle)
-                     : std::make_pair<const SurfaceTable<dim> *, unsigned int>(
-                         nullptr, 0);
-      });
-  }
-
-
-
-  // Moving obstacles may have come near to others since the last step.
-  template <int dim>
-  void
-  FacetConstraints<dim>::find_gaps(const State<dim> &state)
-  {
-    if (obstacles_.move())
-      if (auto slots_now = slots(state.grid); slots_now != gaps_.slots())
-        prepare_gaps(state.grid, std::move(slots_now));
-    tables_.limit(state.points.size());
-    gaps_.find(state,
-               facets_.nodes_and_obstacles(),
-               facets_.nearness_of_cells());
-  }
-
-
-
-  // Distance of a box: distance of the centre less the support of the box.
-  template <int dim>
-  std::vector<typename NodalGaps<dim>::Surface>
-  FacetConstraints<dim>::surfaces() const
-  {
-    std::vector<typename NodalGaps<dim>::Surface> result;
-    for (unsigned int k = 0; k < obstacles_.size(); ++k)
-      result.push_back([&obstacle = obstacles_[k]](const Point<dim>     &x,
-                                                   const Tensor<1, dim> &half) {
-        auto [gap, normal] = obstacle.distance_and_normal(x);
-        for (unsigned int d = 0; d < dim; ++d)
-          gap -= half[d] * std::abs(normal[d]);
-        return gap;
-      });
-    return result;
-  }
-
-
-
-  /// Return the slot of each obstacle, the same on all ranks. Obstacles far
-  /// apart share a slot: the number of slots follows the density of the
-  /// obstacles. Collective.
-  template <int dim>
-  std::vector<unsigned int>
-  FacetConstraints<dim>::slots(const Grid<dim> &grid) const
-  {
-    double largest_cell = 0;
-    for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
-      if (facets_.is_near(c))
-        largest_cell = std::max(largest_cell, grid.cells()[c].size);
-    const double distance = NodalGaps<dim>::min_distance_in_slot(
-      Utilities::MPI::max(largest_cell, grid.communicator()));
-    std::vector<unsigned int> result;
-    for (unsigned int k = 0; k < obstacles_.size(); ++k)
-      {
-        const auto near =
-          obstacles_.near(obstacles_[k].bounding_box(), distance);
-        std::vector<unsigned char> is_taken(near.size() + 1, 0);
-        for (const unsigned int other : near)
-          if (other < k && result[other] < is_taken.size())
-            is_taken[result[other]] = 1;
-        result.push_back(std::find(is_taken.begin(), is_taken.end(), 0) -
-                         is_taken.begin());
-      }
-    return result;
   }
 
 
@@ -127,42 +29,19 @@ namespace talus
       constraints_[c] = {};
     loaded_.clear();
     constraints_.resize(facets_.owned().size());
-    find_volume_fractions(facets_.owned(), fractions_);
-    find_volume_fractions(facets_.ghosts(), fractions_of_ghosts_);
-    coverage_.find(state, fractions_, fractions_of_ghosts_);
     for (unsigned int c = 0; c < constraints_.size(); ++c)
       {
         const ContactFacet<dim> &facet      = facets_.owned()[c];
         FacetConstraint<dim>    &constraint = constraints_[c];
-        if (fractions_[c] == 0 || !find_shares(facet, constraint))
+        if (soil_.fraction(c) == 0 || !find_shares(facet, constraint))
           continue;
         loaded_.push_back(c);
         require_uniform(facet);
         find_masses(facet, constraint);
-        constraint.area =
-          facet.area * share_in_contact(coverage_[c], fractions_[c]);
+        constraint.area = facet.area * soil_.share(c);
         if (has_memory)
           constraint.averaging_weight =
             averaging_weight(state, facet, constraint);
-      }
-  }
-
-
-
-  template <int dim>
-  void
-  FacetConstraints<dim>::find_volume_fractions(
-    const std::vector<ContactFacet<dim>> &facets,
-    std::vector<double>                  &fractions) const
-  {
-    fractions.assign(facets.size(), 0.);
-    for (unsigned int f = 0; f < facets.size(); ++f)
-      {
-        const ContactFacet<dim> &facet = facets[f];
-        double                   sum   = 0;
-        for (unsigned int v = 0; v < facet.node.size(); ++v)
-          sum += facet.shape_value[v] * nodes_.fill(facet.node[v]);
-        fractions[f] = sum;
       }
   }
 
@@ -181,7 +60,7 @@ namespace talus
     double                                         sum = 0;
     for (unsigned int v = 0; v < share.size(); ++v)
       {
-        share[v] = facet.shape_value[v] * nodes_.fill(facet.node[v]);
+        share[v] = facet.shape_value[v] * soil_.volume_fraction(facet.node[v]);
         sum += share[v];
       }
     if (sum <= 0)
@@ -234,13 +113,9 @@ namespace talus
             free -= facet.normal[d] * facet.normal[d];
         inverse_mass += inverse;
         inverse_normal_mass += free * inverse;
-        static const bool mean = getenv("T_M");
-        if (mean)
-          constraint.gap = (v==0||constraint.gap==NodalGaps<dim>::none?0:constraint.gap) + share*gaps_.room(node, facet.obstacle, facet.cell_size);
-        else
         constraint.gap =
           std::min(constraint.gap,
-                   gaps_.room(node, facet.obstacle, facet.cell_size));
+                   soil_.gap(node, facet.obstacle, facet.cell_size));
       }
     constraint.mass = 1. / inverse_mass;
     constraint.normal_mass =

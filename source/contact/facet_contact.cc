@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/assertion.h>
 #include <talus/contact/facet_contact.h>
 #include <talus/contact/impulse_projection.h>
 
@@ -30,31 +31,29 @@ namespace talus
     : obstacles_(obstacles)
     , boundaries_(boundaries)
     , reactions_(obstacles.size())
-  {}
+  {
+    boundaries_.set_covered_area(
+      [this](const unsigned int face, const unsigned int node) {
+        return soil_.at_faces().area(face, node);
+      });
+  }
 
 
 
-  // A change of the mesh changes numbers and owners of cells, facets and nodes,
-  // but not the key of a cell. Each rank selects rows from the impulses of all
-  // ranks. There are only as many rows as facets with soil, and the mesh
-  // changes seldom.
   template <int dim>
   void
   FacetContact<dim>::prepare(const Grid<dim> &grid)
   {
     if (obstacles_.empty())
-      return;
-    std::vector<double> rows;
-    for (const auto &of_rank :
-         Utilities::MPI::all_gather(grid.communicator(), impulses_.rows()))
-      rows.insert(rows.end(), of_rank.begin(), of_rank.end());
+      return soil_.prepare(grid, boundaries_.seabed_faces());
     obstacles_.locate(); // a checkpoint may have restored their places
     facets_.prepare(grid, obstacles_);
-    impulses_.take(rows);
+    impulses_.move_to(keys_of(facets_.owned()), grid.communicator());
     if (keeps_slip())
       slip_.prepare(places_of_facets(), grid.communicator());
     nodes_.prepare(grid);
-    constraints_.prepare(grid);
+    soil_.prepare(grid, boundaries_.seabed_faces());
+    constraints_.prepare();
   }
 
 
@@ -65,8 +64,20 @@ namespace talus
   {
     std::vector<BedPlace<dim>> result;
     for (const ContactFacet<dim> &facet : facets_.owned())
-      result.push_back({name_of(facet), facet.centroid, facet.area});
+      result.push_back({key_of(facet), facet.centroid, facet.area});
     return result;
+  }
+
+
+
+  /// Give impulses and slip to the present facets of this rank.
+  template <int dim>
+  void
+  FacetContact<dim>::update_places()
+  {
+    impulses_.update(keys_of(facets_.owned()));
+    if (keeps_slip())
+      slip_.update(places_of_facets());
   }
 
 
@@ -101,7 +112,7 @@ namespace talus
 
   // Jacobi's iteration with mass splitting: all facets see the same velocities,
   // and the facets of a node share the mass of the node. So all facets together
-  // cannot push a node farther than a single facet. One sweep per step is
+  // cannot push a node farther than a single facet. Few sweeps per step are
   // enough, because the iteration starts from the previous impulses. Neither
   // the order of the facets nor the number of ranks matters. Walls come first:
   // no facet can change a component held by a wall.
@@ -117,8 +128,7 @@ namespace talus
     bodies_.begin_step(state);
     warm_start(state);
     const unsigned int n_sweeps = has_begun_ ? n_sweeps_later : n_first_sweeps;
-    const unsigned int n_s = getenv("T_SW") ? atoi(getenv("T_SW")) : n_sweeps;
-    for (unsigned int s = 0; s < n_s; ++s)
+    for (unsigned int s = 0; s < n_sweeps; ++s)
       sweep(state);
     for (const unsigned int c : constraints_.loaded())
       impulses_[c].mean_normal =
@@ -137,8 +147,6 @@ namespace talus
   void
   FacetContact<dim>::find_constraints(const State<dim> &state)
   {
-    take_restored(state);
-    constraints_.find_gaps(state);
     nodes_.load(state);
     constraints_.find(state, /*has_memory=*/has_begun_);
   }
@@ -151,7 +159,9 @@ namespace talus
   void
   FacetContact<dim>::set_forces(const std::vector<FacetImpulse<dim>> &forces)
   {
-    impulses_.set(forces);
+    TalusAssert(forces.size() == impulses_.size(),
+                ExcDimensionMismatch(forces.size(), impulses_.size()));
+    std::copy(forces.begin(), forces.end(), impulses_.begin());
     previous_time_step_ = 1.;
     has_begun_          = true;
   }
@@ -165,16 +175,14 @@ namespace talus
   void
   FacetContact<dim>::take_restored(const State<dim> &state)
   {
-    if (!impulses_.has_restored())
+    if (!impulses_.is_waiting())
       return;
     if (obstacles_.move())
       {
         obstacles_.locate();
         facets_.prepare(state.grid, obstacles_);
-        if (keeps_slip())
-          slip_.update(places_of_facets());
       }
-    impulses_.take_restored();
+    update_places();
   }
 
 
@@ -184,17 +192,14 @@ namespace talus
   void
   FacetContact<dim>::begin_step(State<dim> &state)
   {
-    if (obstacles_.empty())
-      return;
     take_restored(state);
-    if (!obstacles_.move())
-      return;
-    const std::vector<double> rows = impulses_.rows();
-    obstacles_.advance(state.time, state.time_step);
-    facets_.update(state.grid, obstacles_);
-    impulses_.take(rows);
-    if (keeps_slip())
-      slip_.update(places_of_facets());
+    if (obstacles_.move())
+      {
+        obstacles_.advance(state.time, state.time_step);
+        facets_.update(state.grid, obstacles_);
+        update_places();
+      }
+    soil_.find(state);
   }
 
 
@@ -406,7 +411,7 @@ namespace talus
              Reduction::equal);
     for (unsigned int k = 0; k < obstacles_.size(); ++k)
       reactions_[k].list_state("obstacle " + obstacles_[k].name(), list);
-    impulses_.list_state(list);
+    impulses_.list_state("facet impulses", list);
     if (obstacles_.soften())
       slip_.list_state("slip of obstacles", list);
   }

@@ -188,7 +188,6 @@ namespace talus
           y[across(axis, k)] =
             samples.column[k][i / power(n_columns, k) % n_columns];
         y[axis] -= (y - facet.centroid) * facet.normal / facet.normal[axis];
-        samples.height[i] = y[axis];
         if (y[axis] >= cell.lower[axis] - tolerance &&
             y[axis] <= cell.lower[axis] + cell.size + tolerance &&
             (!is_shared || is_open(cell, facet, y)))
@@ -196,19 +195,10 @@ namespace talus
       }
     if (samples.places == 0)
       {
-        samples.places    = 1;
-        samples.height[0] = facet.centroid[axis];
+        samples.places = 1;
         for (unsigned int k = 0; k < dim - 1; ++k)
           samples.column[k].fill(facet.centroid[across(axis, k)]);
       }
-    samples.lowest = samples.highest =
-      samples.height[__builtin_ctz(samples.places)];
-    for (unsigned int i = 0; i < n_places; ++i)
-      if (samples.places & (Mask(1) << i))
-        {
-          samples.lowest  = std::min(samples.lowest, samples.height[i]);
-          samples.highest = std::max(samples.highest, samples.height[i]);
-        }
     return samples;
   }
 
@@ -284,8 +274,9 @@ namespace talus
 
 
   /// Add the samples reached by boxes of the points in cell @p c, moved by
-  /// @p shift, m. A box counts if the lower side is near the surface and the
-  /// upper side above. A box reaches a quarter of a cell beyond its ends, from
+  /// @p shift, m. A box counts if it is near the plane of the facet and not
+  /// below, as a whole: over a plane inclined to its sides the box stands for
+  /// soil that lies on the plane. A box reaches a third of a cell beyond its ends, from
   /// one side only: a hole between two boxes counts as covered, but the end of
   /// a layer is not moved.
   template <int dim>
@@ -299,48 +290,23 @@ namespace talus
   {
     const Points<dim> &points   = state.points;
     const auto        &segments = points.segments();
-    const unsigned int axis     = samples.axis;
     const double       h        = state.grid.cells()[facet.cell].size;
-    const double       n_axis   = facet.normal[axis];
-    const double       outwards = (n_axis > 0 ? 1. : -1.);
-    const double nearest  = (n_axis > 0 ? samples.highest : samples.lowest);
-    const double farthest = (n_axis > 0 ? samples.lowest : samples.highest);
-    const double largest_gap =
-      largest_gap_of_covering_box * h / std::abs(n_axis);
     for (unsigned int s = first_segment_[c];
          s < segments.size() && segments[s].cell == c;
          ++s)
       for (unsigned int p = segments[s].begin; p < segments[s].end; ++p)
         {
           const Point<dim> x = load_place(points, points.position, p) + shift;
-          const Tensor<1, dim> half = half_lengths_of_box(points, p);
+          const Tensor<1, dim> half     = half_lengths_of_box(points, p);
+          const double         distance = facet.distance_from_plane(x);
+          const double         support  = support_of_box(half, facet.normal);
           // Most boxes lie above, below or beside all sample points.
-          const double min_height = outwards * (x[axis] - nearest);
-          const double max_height = outwards * (x[axis] - farthest);
-          if (min_height - half[axis] >= largest_gap ||
-              max_height + half[axis] <= 0 ||
-              is_beside(samples, x, half, 0.25 * h))
+          if (distance - support >= largest_gap_of_covering_box * h ||
+              distance + support <= 0 || is_beside(samples, x, half, h / 3.))
             continue;
-          const Reached in_plan = reached_in_plan(samples, x, half, 0.25 * h);
-          Mask          candidates = 0, at_surface = 0;
-          for (const Mask mask : in_plan.from)
-            candidates |= mask;
-          candidates &= samples.places & ~reached.covered();
-          if (max_height - half[axis] < largest_gap &&
-              min_height + half[axis] > 0)
-            {
-              at_surface = candidates; // all of them
-              candidates = 0;
-            }
-          for (; candidates != 0; candidates &= candidates - 1)
-            {
-              const unsigned int i = __builtin_ctz(candidates);
-              const double height  = outwards * (x[axis] - samples.height[i]);
-              if (height - half[axis] < largest_gap && height + half[axis] > 0)
-                at_surface |= Mask(1) << i;
-            }
+          const Reached in_plan = reached_in_plan(samples, x, half, h / 3.);
           for (unsigned int k = 0; k < reached.from.size(); ++k)
-            reached.from[k] |= in_plan.from[k] & at_surface;
+            reached.from[k] |= in_plan.from[k] & samples.places;
         }
   }
 

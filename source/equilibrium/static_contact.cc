@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/base/key_halves.h>
 #include <talus/equilibrium/static_contact.h>
 #include <talus/grid/node_places.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <array>
-#include <map>
+#include <algorithm>
 
 namespace talus
 {
@@ -23,12 +21,11 @@ namespace talus
                             const double              modulus)
   {
     facets_.begin(problem, unknowns, modulus);
-    const std::vector<double> before = rows();
-    contacts_.clear();
-    restored_.clear();
     const auto                      &active = unknowns.active_nodes();
     const std::vector<unsigned long> keys =
       keys_of_owned_nodes(problem.state.grid);
+    std::vector<PlaceKey> places;
+    std::vector<Contact>  contacts;
     for (unsigned int k = 0; k < active.size(); ++k)
       for (unsigned int face = 0; face < 2 * dim; ++face)
         if (const unsigned char faces =
@@ -37,7 +34,6 @@ namespace talus
           {
             Contact contact;
             contact.node = active[k];
-            contact.key  = keys[active[k]];
             contact.k    = k;
             contact.face = face;
             contact.walls =
@@ -48,59 +44,15 @@ namespace talus
             contact.limit = problem.boundaries.seabed().limit(face,
                                                               contact.node,
                                                               contact.area);
-            contacts_.push_back(contact);
+            contacts.push_back(contact);
+            places.push_back(place_key(keys[contact.node], face));
           }
-    take(before);
-  }
-
-
-
-  /// Table with a row for each node on the seabed: key of its place (two
-  /// numbers), face, state, friction and reaction, N.
-  template <int dim>
-  std::vector<double>
-  StaticContact<dim>::rows() const
-  {
-    if (!restored_.empty())
-      return restored_;
-    std::vector<double> rows;
-    for (const Contact &contact : contacts_)
+    contacts_.update(std::move(places));
+    for (unsigned int i = 0; i < contacts.size(); ++i)
       {
-        const auto [upper, lower] = halves_of_key(contact.key);
-        rows.insert(rows.end(),
-                    {upper,
-                     lower,
-                     double(contact.face),
-                     double(static_cast<int>(contact.state))});
-        for (const auto &force : {contact.friction, contact.reaction})
-          for (unsigned int d = 0; d < dim; ++d)
-            rows.push_back(force[d]);
-      }
-    return rows;
-  }
-
-
-
-  /// Restore state and forces of the nodes listed in @p rows.
-  template <int dim>
-  void
-  StaticContact<dim>::take(const std::vector<double> &rows)
-  {
-    std::map<std::array<double, 3>, const double *> known;
-    for (std::size_t r = 0; r < rows.size(); r += n_columns)
-      known[{{rows[r], rows[r + 1], rows[r + 2]}}] = &rows[r + 3];
-    for (Contact &contact : contacts_)
-      {
-        const auto [upper, lower] = halves_of_key(contact.key);
-        const auto found = known.find({{upper, lower, double(contact.face)}});
-        if (found == known.end())
-          continue;
-        const double *value = found->second;
-        contact.state       = static_cast<State>(static_cast<int>(*value++));
-        for (Tensor<1, dim> *force : {&contact.friction, &contact.reaction})
-          for (unsigned int d = 0; d < dim; ++d)
-            (*force)[d] = *value++;
-        limit_friction(contact);
+        contacts[i].values() = contacts_[i].values();
+        contacts_[i]         = contacts[i];
+        limit_friction(contacts_[i]);
       }
   }
 
@@ -111,24 +63,8 @@ namespace talus
   StaticContact<dim>::list_state(StateList                   &list,
                                  const std::function<bool()> &is_needed)
   {
-    const auto rows_of = [is_needed](const auto &part) {
-      return is_needed() ? part.rows() : std::vector<double>();
-    };
-    list.add_table(
-      {"static contact with the seabed",
-       "key of the place of the node: upper and lower 32 bits; face; state; "
-       "friction [N]; reaction [N]",
-       n_columns,
-       [this, rows_of]() { return rows_of(*this); },
-       [this](const std::vector<double> &rows) { restored_ = rows; }});
-    list.add_table(
-      {"static contact with obstacles",
-       "key of the cell or of the place of the node: upper and lower 32 bits; "
-       "obstacle; number of the facet in its cell, -1 for a node; normal "
-       "displacement [m]; normal force [N]",
-       StaticFacets<dim>::n_columns,
-       [this, rows_of]() { return rows_of(facets_); },
-       [this](const std::vector<double> &rows) { facets_.restore(rows); }});
+    contacts_.list_state("static contact with the seabed", list, is_needed);
+    facets_.list_state(list, is_needed);
   }
 
 
@@ -144,7 +80,7 @@ namespace talus
     for (const unsigned int node : unknowns.active_nodes())
       result.push_back(problem.boundaries.components_constrained_by_walls(
         problem.state.grid.faces_of_node(node)));
-    for (const Contact &contact : contacts_)
+    for (const Contact &contact : contacts_.all())
       if (contact.state == State::sticks)
         result[contact.k] = (1u << dim) - 1;
       else if (contact.state == State::slips)
@@ -209,7 +145,7 @@ namespace talus
   void
   StaticContact<dim>::add_friction(std::vector<double> &forces) const
   {
-    for (const Contact &contact : contacts_)
+    for (const Contact &contact : contacts_.all())
       if (contact.state == State::slips)
         {
           const Tensor<1, dim> friction = contact.friction_after_slip();
@@ -225,7 +161,7 @@ namespace talus
   StaticContact<dim>::add_to_matrix(StiffnessMatrix<dim> &matrix) const
   {
     FullMatrix<double> block(dim, dim);
-    for (const Contact &contact : contacts_)
+    for (const Contact &contact : contacts_.all())
       {
         const double softening =
           contact.state == State::slips ? contact.softening() : 0.;
@@ -270,7 +206,7 @@ namespace talus
   StaticContact<dim>::add_contact_force(const double         factor,
                                         std::vector<double> &forces) const
   {
-    for (const Contact &contact : contacts_)
+    for (const Contact &contact : contacts_.all())
       for (unsigned int d = 0; d < dim; ++d)
         if (contact.state != State::open)
           forces[dim * contact.node + d] +=

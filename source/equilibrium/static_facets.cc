@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/base/key_halves.h>
 #include <talus/equilibrium/static_facets.h>
 #include <talus/grid/node_places.h>
 
@@ -46,12 +45,14 @@ namespace talus
     if (problem.contact.obstacles().empty())
       return;
     problem.contact.find_constraints(problem.state);
-    const Memories before = memories();
-    points_.clear();
-    restored_.clear();
-    n_facets_ = problem.contact.facets().owned().size();
-    add_facets(problem, before, modulus);
-    add_nodes_inside(problem, unknowns, before, modulus);
+    n_facets_                     = problem.contact.facets().owned().size();
+    std::vector<PlaceKey> places  = keys_of(problem.contact.facets().owned());
+    const auto            of_node = keys_of_owned_nodes(problem.state.grid);
+    for (const auto &inside : problem.contact.facets().nodes_inside())
+      places.push_back(place_key(of_node[inside.node], inside.obstacle, -1.));
+    points_.update(std::move(places));
+    set_facets(problem, modulus);
+    set_nodes_inside(problem, unknowns, modulus);
     for (ContactPoint &point : points_)
       {
         if (point.given.normal > 0)
@@ -65,117 +66,69 @@ namespace talus
 
 
 
-  template <int dim>
-  std::vector<double>
-  StaticFacets<dim>::rows() const
-  {
-    if (!restored_.empty())
-      return restored_;
-    std::vector<double> rows;
-    for (const ContactPoint &point : points_)
-      if (point.opened != 0 || point.found.normal > 0)
-        {
-          rows.insert(rows.end(), point.name.begin(), point.name.end());
-          rows.insert(rows.end(), {point.opened, point.found.normal});
-        }
-    return rows;
-  }
-
-
-
-  /// Stored by name: a resumed run starts like a load step that follows
-  /// another.
-  template <int dim>
-  typename StaticFacets<dim>::Memories
-  StaticFacets<dim>::memories() const
-  {
-    Memories                  result;
-    const std::vector<double> rows = this->rows();
-    for (std::size_t r = 0; r < rows.size(); r += n_columns)
-      {
-        FacetName name;
-        std::copy_n(&rows[r], name.size(), name.begin());
-        result[name] = {rows[r + name.size()], rows[r + name.size() + 1]};
-      }
-    return result;
-  }
-
-
-
-  /// Add all facets, also without soil, so that the numbers of facets are kept.
+  /// Set all facets, also without soil, so that the numbers of facets are kept.
   template <int dim>
   void
-  StaticFacets<dim>::add_facets(const StaticProblem<dim> &problem,
-                                const Memories           &before,
+  StaticFacets<dim>::set_facets(const StaticProblem<dim> &problem,
                                 const double              modulus)
   {
     const auto &facets = problem.contact.facets().owned();
     for (unsigned int k = 0; k < n_facets_; ++k)
       {
-        const auto  &constraint = problem.contact.constraints()[k];
-        const auto  &impulse    = problem.contact.impulses()[k];
-        ContactPoint point;
-        point.name   = name_of(facets[k]);
-        point.node   = facets[k].node;
-        point.share  = constraint.share;
-        point.normal = facets[k].normal;
-        if (constraint.is_loaded)
+        const auto   &constraint = problem.contact.constraints()[k];
+        const auto   &impulse    = problem.contact.impulses()[k];
+        ContactPoint &point      = points_[k];
+        point.node               = facets[k].node;
+        point.share              = constraint.share;
+        point.normal             = facets[k].normal;
+        if (!constraint.is_loaded)
           {
-            point.place     = facets[k].centroid;
-            point.area      = constraint.area;
-            point.stiffness = spring * modulus * constraint.area /
-                              problem.state.grid.cells()[facets[k].cell].size;
-            point.limit = problem.contact.constraints().limit(k);
-            point.given = {impulse.normal, impulse.tangential};
-            if (const auto memory = before.find(point.name);
-                memory != before.end())
-              point.opened = memory->second.opened;
-            point.gap = std::max(0., constraint.gap + point.opened);
+            point.opened = 0;
+            continue;
           }
-        points_.push_back(point);
+        point.place     = facets[k].centroid;
+        point.area      = constraint.area;
+        point.stiffness = spring * modulus * constraint.area /
+                          problem.state.grid.cells()[facets[k].cell].size;
+        point.limit = problem.contact.constraints().limit(k);
+        point.given = {impulse.normal, impulse.tangential};
+        point.gap   = std::max(0., constraint.gap + point.opened);
       }
   }
 
 
 
-  /// Add nodes inside obstacles, as in the dynamics: without area and so
+  /// Set nodes inside obstacles, as in the dynamics: without area and so
   /// without friction.
   template <int dim>
   void
-  StaticFacets<dim>::add_nodes_inside(const StaticProblem<dim> &problem,
+  StaticFacets<dim>::set_nodes_inside(const StaticProblem<dim> &problem,
                                       const Unknowns<dim>      &unknowns,
-                                      const Memories           &before,
                                       const double              modulus)
   {
-    const Grid<dim>                 &grid = problem.state.grid;
-    const double                     h    = grid.finest_size();
-    const std::vector<unsigned long> keys = keys_of_owned_nodes(grid);
+    const Grid<dim> &grid = problem.state.grid;
+    const double     h    = grid.finest_size();
+    unsigned int     k    = n_facets_;
     for (const auto &inside : problem.contact.facets().nodes_inside())
       {
-        ContactPoint point;
-        const auto [upper, lower] = halves_of_key(keys[inside.node]);
-        point.name = {{upper, lower, double(inside.obstacle), -1.}};
+        ContactPoint &point = points_[k++];
         point.node.fill(inside.node);
         point.share.fill(0.);
         point.share[0] = 1.;
         point.normal =
           problem.contact.obstacles()[inside.obstacle].normal(inside.place);
-        if (unknowns.is_active(inside.node))
+        if (!unknowns.is_active(inside.node))
           {
-            point.stiffness =
-              spring * modulus * unknowns.volume(inside.node) / (h * h);
-            if (const auto memory = before.find(point.name);
-                memory != before.end())
-              {
-                point.given.normal = memory->second.force;
-                point.opened       = memory->second.opened;
-              }
-            point.gap =
-              std::max(0.,
-                       problem.contact.constraints().gap_inside(grid, inside) +
-                         point.opened);
+            point.opened = 0;
+            continue;
           }
-        points_.push_back(point);
+        point.stiffness =
+          spring * modulus * unknowns.volume(inside.node) / (h * h);
+        point.given.normal = point.found.normal;
+        point.gap =
+          std::max(0.,
+                   problem.contact.constraints().gap_inside(grid, inside) +
+                     point.opened);
       }
   }
 
@@ -300,7 +253,7 @@ namespace talus
     const std::function<double(const Point<dim> &)> &pressure,
     std::vector<double>                             &forces) const
   {
-    for (const ContactPoint &point : points_)
+    for (const ContactPoint &point : points_.all())
       if (point.area > 0.)
         {
           const Tensor<1, dim> force =
@@ -341,7 +294,7 @@ namespace talus
   StaticFacets<dim>::couple(StiffnessMatrix<dim> &matrix) const
   {
     std::vector<unsigned int> nodes, vertices;
-    for (const ContactPoint &point : points_)
+    for (const ContactPoint &point : points_.all())
       {
         list_nodes(point, nodes, vertices);
         matrix.couple(nodes);

@@ -8,13 +8,6 @@ namespace talus
 {
   using namespace dealii;
 
-  namespace
-  {
-    constexpr unsigned int bottom_face = 2; // in both dimensions
-  }
-
-
-
   /// Add a place of the bed, distributed over a cell around the place.
   template <int dim>
   void
@@ -60,17 +53,18 @@ namespace talus
       sums->assign(n, 0.);
     if (n == 0)
       return;
-    seabed.slip().for_each(
-      [&](const BedPlace<dim> &place, const SurfaceState &place_state) {
-        if (place.name[2] == bottom_face)
-          add(place, seabed.friction().share_left(place_state), h, columns);
-      });
+    seabed.slip().for_each([&](const BedPlace<dim> &place) {
+      if (place.key[2] == bottom_face)
+        add(place, seabed.friction().share_left(place.state()), h, columns);
+    });
     const Ground<dim> ground(state.grid.domain(), &obstacles);
-    facets.for_each([&](const BedPlace<dim> &place,
-                        const SurfaceState  &place_state) {
-      const unsigned int k = place.name[2];
+    facets.for_each([&](const BedPlace<dim> &place) {
+      const unsigned int k = place.key[2];
       if (ground.contains(k))
-        add(place, obstacles[k].friction().share_left(place_state), h, columns);
+        add(place,
+            obstacles[k].friction().share_left(place.state()),
+            h,
+            columns);
     });
     for (auto *sums : {&area_, &slip_, &share_})
       Utilities::MPI::sum(*sums, state.communicator(), *sums);

@@ -31,8 +31,6 @@ namespace talus
     , obstacles(preview.obstacles)
     , loading(preview.folder)
     , boundaries(interactions.template add<Boundaries<dim>>())
-    , seabed_coverage(
-        interactions.template add<SeabedCoverage<dim>>(boundaries))
     , contact(
         interactions.template add<FacetContact<dim>>(obstacles, boundaries))
     , damping(interactions.template add<Damping<dim>>(boundaries,

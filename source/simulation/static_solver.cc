@@ -77,7 +77,6 @@ namespace talus
             problem_.boundaries,
             problem_.loading.loads(),
             problem_.contact,
-            problem_.seabed_coverage,
             problem_.bodies().mudline()};
   }
 

@@ -131,11 +131,10 @@ namespace talus
       std::vector<double>      areas(1 + obstacles.size(), 0.);
       std::vector<std::string> names{"the seabed"};
       areas[0] = problem.boundaries.seabed().slip().slipped_area();
-      problem.contact.slip().for_each(
-        [&areas](const BedPlace<dim> &place, const SurfaceState &place_state) {
-          if (place_state.slip > 0)
-            areas[1 + place.name[2]] += place.area;
-        });
+      problem.contact.slip().for_each([&areas](const BedPlace<dim> &place) {
+        if (place.slip > 0)
+          areas[1 + place.key[2]] += place.area;
+      });
       for (unsigned int k = 0; k < obstacles.size(); ++k)
         names.push_back("the obstacle '" + obstacles[k].name() + "'");
       Utilities::MPI::sum(areas, state.communicator(), areas);

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/base/key_halves.h>
 #include <talus/water/free_surface.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -126,13 +123,8 @@ namespace talus
   void
   FreeSurface<dim>::prepare(const Grid<dim> &grid)
   {
-    std::vector<double> rows;
-    if (!is_restored_)
-      for (const std::vector<double> &of_rank :
-           Utilities::MPI::all_gather(grid.communicator(), this->rows()))
-        rows.insert(rows.end(), of_rank.begin(), of_rank.end());
     solid_.prepare(grid);
-    coverage_.prepare(grid);
+    at_bottom_.prepare(grid, 1u << bottom_face);
     std::vector<std::vector<unsigned int>> cells(grid.n_nodes());
     for (unsigned int c = 0; c < grid.cells().size(); ++c)
       for (const unsigned int node : grid.cells()[c].nodes())
@@ -159,53 +151,27 @@ namespace talus
     filled_nodes_.clear();
     soil_nodes_.clear();
     listed_cells_.clear();
-    facets_.clear();
-    key_of_facet_.clear();
-    make_facets(rows, grid);
+    move_facets(grid);
   }
 
 
 
-  template <int dim>
-  std::vector<double>
-  FreeSurface<dim>::rows() const
-  {
-    std::vector<double> rows;
-    for (unsigned int k = 0; k < facets_.size(); ++k)
-      {
-        const auto [upper, lower] = halves_of_key(key_of_facet_[k]);
-        rows.insert(rows.end(), {upper, lower});
-        for (const auto &vector : {facets_[k].vector_area, facets_[k].normal})
-          for (unsigned int d = 0; d < dim; ++d)
-            rows.push_back(vector[d]);
-      }
-    return rows;
-  }
-
-
-
-  /// Make facets of the @p rows of all ranks in owned cells. The order is kept:
-  /// sums over facets in a resumed run give the same bits.
+  /// Move the facets to the ranks that own their cells. The order is kept: sums
+  /// over facets in a resumed run give the same bits.
   template <int dim>
   void
-  FreeSurface<dim>::make_facets(const std::vector<double> &rows,
-                                const Grid<dim>           &grid)
+  FreeSurface<dim>::move_facets(const Grid<dim> &grid)
   {
-    for (std::size_t r = 0; r < rows.size(); r += n_columns)
-      {
-        const unsigned long key = key_of_halves(rows[r], rows[r + 1]);
-        const unsigned int  c   = grid.cell_of_key(key);
-        if (c >= grid.n_owned_cells())
-          continue;
-        SurfaceFacet<dim> &facet = facets_.emplace_back();
-        facet.node               = grid.cells()[c].nodes();
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            facet.vector_area[d] = rows[r + 2 + d];
-            facet.normal[d]      = rows[r + 2 + dim + d];
-          }
-        key_of_facet_.push_back(key);
-      }
+    const auto cell_of = [&grid](const PlaceKey &place) {
+      return grid.cell_of_key(key_of_halves(place[0], place[1]));
+    };
+    facets_.move_to(
+      [&](const PlaceKey &place) {
+        return cell_of(place) < grid.n_owned_cells();
+      },
+      grid.communicator());
+    for (unsigned int k = 0; k < facets_.size(); ++k)
+      facets_[k].node = grid.cells()[cell_of(facets_.places()[k])].nodes();
     list_nodes_of_facets(grid);
   }
 
@@ -226,7 +192,7 @@ namespace talus
         nodes_of_facets_.push_back(node);
       is_node_of_facets_[node] = 1;
     };
-    for (const SurfaceFacet<dim> &facet : facets_)
+    for (const SurfaceFacet<dim> &facet : facets())
       std::for_each(facet.node.begin(), facet.node.end(), add);
     std::for_each(grid.interface_nodes().begin(),
                   grid.interface_nodes().end(),
@@ -248,33 +214,52 @@ namespace talus
                          const FacetContact<dim> &contact)
   {
     const Grid<dim> &grid = state.grid;
+    // Records of other ranks come back by messages.
+    filled_nodes_.insert(filled_nodes_.end(),
+                         grid.interface_nodes().begin(),
+                         grid.interface_nodes().end());
     for (const unsigned int node : filled_nodes_)
       std::fill_n(record(node), width, 0.);
     filled_nodes_.clear();
     facets_.clear();
-    key_of_facet_.clear();
-    restored_.clear();
-    is_restored_ = false;
     solid_.update(grid, contact);
-    fill_records(state);
+    fill_records(state, contact);
     list_cells(state);
     find_vector_areas(grid);
     for (const unsigned int c : surface_cells_)
       {
-        const Cell<dim>   &cell     = grid.cells()[c];
-        const double       min_area = min_area_in_cell * face_of<dim>(cell);
-        SurfaceFacet<dim> &facet    = facets_.emplace_back();
+        const Cell<dim>  &cell     = grid.cells()[c];
+        const double      min_area = min_area_in_cell * face_of<dim>(cell);
+        SurfaceFacet<dim> facet    = {};
         if (!set_surface(cell, vector_areas_[c], facet))
-          {
-            facets_.pop_back();
-            continue;
-          }
+          continue;
         if (vector_areas_[c].norm_square() < square(2. * min_area))
           facet.vector_area *= vector_areas_[c].norm() / min_area - 1.;
         facet.node = cell.nodes();
-        key_of_facet_.push_back(grid.key_of_cell(c));
+        facets_.push_back(place_key(grid.key_of_cell(c)), facet);
       }
     list_nodes_of_facets(grid);
+  }
+
+
+
+  /// Add the areas of the facets in contact with soil to the records of their
+  /// nodes.
+  template <int dim>
+  void
+  FreeSurface<dim>::add_contact_areas(const FacetContact<dim> &contact)
+  {
+    const auto &facets = contact.facets().owned();
+    for (unsigned int f = 0; f < facets.size(); ++f)
+      {
+        const double area = facets[f].area * contact.soil().share(f);
+        for (unsigned int v = 0; v < facets[f].node.size() && area > 0; ++v)
+          {
+            record(facets[f].node[v])[facets_covered] +=
+              facets[f].shape_value[v] * area;
+            filled_nodes_.push_back(facets[f].node[v]);
+          }
+      }
   }
 
 
@@ -282,9 +267,13 @@ namespace talus
   /// Fill the records of all nodes. Collective.
   template <int dim>
   void
-  FreeSurface<dim>::fill_records(const State<dim> &state)
+  FreeSurface<dim>::fill_records(const State<dim>        &state,
+                                 const FacetContact<dim> &contact)
   {
     const NodalFields<dim> &nodes = state.nodes;
+    if (solid_.exists())
+      add_contact_areas(contact);
+    exchange_.add_to_owners(records_.data());
     for (const unsigned int node : nodes.active_nodes())
       if (nodes.mass(node) > state.constants.mass_cutoff)
         {
@@ -292,16 +281,12 @@ namespace talus
             std::min(1., nodes.volume(node) / solid_.open_volume(node));
           filled_nodes_.push_back(node);
         }
-    exchange_.copy_to_ghosts(records_.data()); // volume fractions
-    coverage_.find(state, solid_, [this](const unsigned int node) {
-      return record(node)[fraction];
-    });
-    for (const unsigned int node : filled_nodes_)
-      {
-        double *const to   = record(node);
-        to[facets_covered] = coverage_.of_facets(node, to[fraction], solid_);
-        to[bottom]         = coverage_.of_bottom(node, to[fraction]);
-      }
+    at_bottom_.find(state);
+    at_bottom_.for_each_node(
+      [&](const unsigned int face, const unsigned int node) {
+        double *const to = record(node);
+        to[bottom] = at_bottom_.share(state.grid, face, node, to[fraction]);
+      });
     exchange_.copy_to_ghosts(records_.data());
     for (const HangingNode &hanging : state.grid.hanging_nodes())
       {
@@ -402,7 +387,7 @@ namespace talus
     double covered = 0, area = 0;
     for (const unsigned int node : nodes)
       {
-        covered += record(node)[facets_covered] * solid_.facet_area(node);
+        covered += record(node)[facets_covered];
         area += solid_.facet_area(node);
       }
     return area > 0 ? covered / area : 0.;
@@ -420,10 +405,9 @@ namespace talus
   FreeSurface<dim>::integrate_gradient(const Grid<dim> &grid,
                                        const Cell<dim> &cell) const
   {
-    constexpr unsigned int bottom_bit = 1u << 2;
-    const auto             nodes      = cell.nodes();
-    const double           face       = face_of<dim>(cell) / power(2, dim - 1);
-    const double           covered =
+    const auto   nodes = cell.nodes();
+    const double face  = face_of<dim>(cell) / power(2, dim - 1);
+    const double covered =
       solid_.exists() ? covered_share_of_facets(nodes) : 0.;
     Tensor<1, dim> result;
     for (unsigned int v = 0; v < nodes.size(); ++v)
@@ -433,7 +417,8 @@ namespace talus
         const double        u    = (1. - b) * node[fraction] + covered * b;
         for (unsigned int d = 0; d < dim; ++d)
           result[d] += ((v >> d) & 1) ? -u : u;
-        if (((v >> 1) & 1) == 0 && (grid.faces_of_node(nodes[v]) & bottom_bit))
+        if (((v >> 1) & 1) == 0 &&
+            (grid.faces_of_node(nodes[v]) & (1u << bottom_face)))
           result[1] += (solid_.contains(nodes[v])
                           ? covered - u
                           : (1. - b) * (node[bottom] - node[fraction]));
@@ -494,10 +479,8 @@ namespace talus
   void
   FreeSurface<dim>::update_soil(const State<dim> &state)
   {
-    if (is_restored_)
-      make_facets(restored_, state.grid);
-    restored_.clear();
-    is_restored_                  = false;
+    if (facets_.is_waiting())
+      move_facets(state.grid);
     const NodalFields<dim> &nodes = state.nodes;
     for (const unsigned int node : nodes_of_facets_)
       {
@@ -564,7 +547,7 @@ namespace talus
     std::fill(area_per_mass_.begin() + grid.n_owned_nodes(),
               area_per_mass_.end(),
               0.);
-    for (const SurfaceFacet<dim> &facet : facets_)
+    for (const SurfaceFacet<dim> &facet : facets())
       {
         double soil = 0;
         for (const unsigned int node : facet.node)

@@ -18,8 +18,6 @@ namespace talus
 
   namespace
   {
-    constexpr unsigned int bottom_of_mesh = 2; ///< face, in 2-D and 3-D
-
     // Thickness of a column with soil [cells]. Thinner soil is a film, whose
     // end is not the nose of the slide.
     constexpr double min_thickness = 0.1;
@@ -89,7 +87,7 @@ namespace talus
                              "factor of less than 1, or remove the entry.")));
     if (!is_enabled())
       return;
-    AssertThrow(boundaries_.is_seabed(bottom_of_mesh),
+    AssertThrow(boundaries_.is_seabed(bottom_face),
                 ExcUser(text("'",
                              section,
                              "Factor' is ",
@@ -128,12 +126,12 @@ namespace talus
       n_[i] = std::lround(grid.domain().length(axis_in_space(i)) / size_);
     nodes_.clear();
     for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
-      if (grid.faces_of_node(node) & (1u << bottom_of_mesh))
+      if (grid.faces_of_node(node) & (1u << bottom_face))
         nodes_.push_back(node);
     acts_.assign(grid.n_owned_nodes(), 0);
     boundaries_.seabed().set_share_left(
       [this](const unsigned int face, const unsigned int node) {
-        return face == bottom_of_mesh && acts_[node] ? factor_ : 1.;
+        return face == bottom_face && acts_[node] ? factor_ : 1.;
       });
   }
 
@@ -314,7 +312,7 @@ namespace talus
     for (const unsigned int node : nodes_)
       if (acts_[node])
         {
-          result.area += state.grid.face_share(bottom_of_mesh, node).area;
+          result.area += state.grid.face_share(bottom_face, node).area;
           result.from = std::min(result.from, places_[node][0]);
           result.to   = std::max(result.to, places_[node][0]);
         }

@@ -16,23 +16,6 @@ namespace talus
     /// with the obstacle would count as much as all soil at the node.
     constexpr double min_open_fraction = 1e-3;
 
-
-
-    /// Share of the bed covered by the boxes of a thin layer [-]. A box as wide
-    /// as high covers half of a bed along its diagonal, and all of a bed
-    /// parallel to an axis. @p normal: unit normal of the bed.
-    template <int dim>
-    double
-    share_without_gaps(const Tensor<1, dim> &normal)
-    {
-      double steepest = 0, sum = 0;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          steepest = std::max(steepest, std::abs(normal[d]));
-          sum += std::abs(normal[d]);
-        }
-      return steepest / sum;
-    }
   } // namespace
 
 
@@ -85,8 +68,6 @@ namespace talus
         {
           double *const to = &records_[width * facet.node[v]];
           to[area] += facet.area * facet.shape_value[v];
-          to[min_covered] += share_without_gaps<dim>(facet.normal) *
-                             facet.area * facet.shape_value[v];
         }
     exchange_.add_to_owners(records_.data());
     exchange_.copy_to_ghosts(records_.data());

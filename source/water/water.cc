@@ -162,13 +162,7 @@ namespace talus
              "m",
              path_at_surface_,
              Reduction::equal);
-    list.add_table(
-      {"free surface",
-       "key of the cell: upper and lower 32 bits; vector area [m^(dim-1)]; "
-       "normal [-]",
-       FreeSurface<dim>::n_columns,
-       [this]() { return surface_.rows(); },
-       [this](const std::vector<double> &rows) { surface_.restore(rows); }});
+    surface_.list_state(list);
   }
 
 

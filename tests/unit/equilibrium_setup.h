@@ -99,7 +99,7 @@ namespace
     load(const Tensor<1, dim> &gravity)
     {
       boundaries.prepare(grid);
-      seabed_coverage.prepare(grid);
+      contact.prepare(grid);
       for (auto &acceleration : loads.acceleration_of_body)
         acceleration = gravity;
       this->constants.mass_cutoff =
@@ -110,14 +110,7 @@ namespace
     StaticProblem<dim>
     problem()
     {
-      return {*this,
-              transfer,
-              materials,
-              boundaries,
-              loads,
-              contact,
-              seabed_coverage,
-              mudline};
+      return {*this, transfer, materials, boundaries, loads, contact, mudline};
     }
 
     /// Search until the end. Returns whether equilibrium is found; residuals by
@@ -154,7 +147,6 @@ namespace
     Materials<dim>                            materials;
     Obstacles<dim>                            obstacles;
     FacetContact<dim>                         contact{obstacles, boundaries};
-    SeabedCoverage<dim>                       seabed_coverage{boundaries};
     Equilibrium<dim>                          equilibrium;
     std::function<double(const Point<dim> &)> mudline; ///< see StaticProblem
     unsigned int                              n_before = 0;

@@ -3,35 +3,52 @@
 #define talus_boundaries_bed_slip_h
 
 #include <talus/base/quantity.h>
-#include <talus/base/state_list.h>
 #include <talus/boundaries/interface_friction.h>
+#include <talus/surface/place_table.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/point.h>
 
-#include <array>
 #include <functional>
-#include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace talus
 {
-  /// Identity of a place of a bed in tables, on any number of ranks: key of the
-  /// node or cell (two numbers), face of the mesh or number of the obstacle,
-  /// number of the facet in the cell or 0.
-  using BedPlaceName = std::array<double, 4>;
-
-
-
   /// Place of a bed with the slip of soil over the place.
   template <int dim>
   struct BedPlace
   {
-    BedPlaceName       name;
-    dealii::Point<dim> x;        ///< node, or centroid of the facet, m
-    double             area;     ///< area of node or facet, m^(dim-1)
-    double             slip = 0; ///< slip so far, m
+    PlaceKey           key;
+    dealii::Point<dim> x;            ///< node, or centroid of the facet, m
+    double             area = 0;     ///< area of node or facet, m^(dim-1)
+    double             slip = 0;     ///< slip so far, m
+    bool is_triggered       = false; ///< whether in the region of the trigger
+
+    SurfaceState
+    state() const
+    {
+      return {slip, is_triggered};
+    }
+
+    // Row of a PlaceTable
+    static constexpr unsigned int n_keys = 4;
+    static constexpr const char  *columns =
+      "key of the node or cell: upper and lower 32 bits; face or obstacle; "
+      "number of the facet in its cell; place [m]; area [m or m^2]; slip [m]";
+
+    bool
+    is_kept() const
+    {
+      return slip > 0;
+    }
+
+    auto
+    values()
+    {
+      return std::tie(x, area, slip);
+    }
   };
 
 
@@ -81,33 +98,36 @@ namespace talus
     SurfaceState
     state(const unsigned int place) const
     {
-      return {places_[place].slip, bool(is_triggered_[place])};
+      return table_[place].state();
     }
 
     /// Add @p slip, m, to a place of the last prepare() or update().
     void
     add(const unsigned int place, const double slip)
     {
-      places_[place].slip += slip;
+      table_[place].slip += slip;
     }
 
     /// Places of the last prepare() or update().
     const std::vector<BedPlace<dim>> &
     places() const
     {
-      return places_;
+      return table_.all();
     }
 
-    /// Call action(place, state) for all places of this rank, also for places
-    /// with slip but without a node.
+    /// Call action(place) for all places of this rank, also for places with
+    /// slip but without a node.
     template <typename Action>
     void
     for_each(const Action &action) const
     {
-      for (unsigned int i = 0; i < places_.size(); ++i)
-        action(places_[i], state(i));
-      for (const auto &[name, place] : elsewhere_)
-        action(place, SurfaceState{place.slip, region_ && region_(place.x)});
+      for (const BedPlace<dim> &place : places())
+        action(place);
+      table_.for_each_elsewhere([&](const PlaceKey &key, BedPlace<dim> place) {
+        place.key          = key;
+        place.is_triggered = region_ && region_(place.x);
+        action(place);
+      });
     }
 
     /// Area of the places of this rank with slip, m^(dim-1).
@@ -122,10 +142,12 @@ namespace talus
     unsigned int
     n_triggered() const;
 
-    /// Return a row for each place of this rank with slip: name, place, area,
-    /// slip.
+    /// Return a row for each place of this rank with slip.
     std::vector<double>
-    rows() const;
+    rows() const
+    {
+      return table_.rows();
+    }
 
     /// Replace all slip by @p rows, see rows().
     void
@@ -136,20 +158,11 @@ namespace talus
     list_state(const std::string &name, StateList &list);
 
   private:
-    static constexpr unsigned int n_columns = 4 + dim + 2;
-
-    using Slips = std::map<BedPlaceName, BedPlace<dim>>;
-
-    static void
-    insert(const std::vector<double> &rows, Slips &slips);
     void
-    assign(Slips &slips);
+    describe(std::vector<BedPlace<dim>> places);
 
-    BedRegion<dim>             region_;
-    std::vector<BedPlace<dim>> places_;
-    std::vector<bool>          is_triggered_;        ///< by place
-    Slips                      elsewhere_;           ///< places without a node
-    bool                       is_restored_ = false; ///< see begin_step()
+    BedRegion<dim>            region_;
+    PlaceTable<BedPlace<dim>> table_{/*outlives_places=*/true};
   };
 
 

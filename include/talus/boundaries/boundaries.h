@@ -132,8 +132,15 @@ namespace talus
       return names_[face] == "seabed";
     }
 
+    /// Faces with a seabed, bit f for face f of the mesh.
+    unsigned char
+    seabed_faces() const;
+
     bool
-    has_seabed() const;
+    has_seabed() const
+    {
+      return seabed_faces() != 0;
+    }
 
     /// Set the depth for the strength of the seabed. Call before prepare() if
     /// the strength depends on the depth.

@@ -6,18 +6,68 @@
 #include <talus/boundaries/bed_slip.h>
 #include <talus/boundaries/boundary_condition.h>
 #include <talus/boundaries/interface_friction.h>
-#include <talus/boundaries/normal_force_memory.h>
+#include <talus/surface/place_table.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <memory>
 #include <string>
+#include <tuple>
+#include <unordered_map>
 #include <vector>
 
 namespace talus
 {
+  /// Running mean of the normal force at a node of a seabed face, for the limit
+  /// of friction (InterfaceFriction). A mean without update() in a step is
+  /// dropped.
+  struct MeanNormalForce
+  {
+    double force    = -1; ///< N; negative: no update() in this step
+    double previous = -1; ///< N; negative: no update() in the previous step
+
+    void
+    begin_step()
+    {
+      previous = force;
+      force    = -1;
+    }
+
+    /// Update the mean by the normal force of the step, @p current, N, with
+    /// @p weight [-], and return the mean, N. After a step without update() the
+    /// mean is @p current.
+    double
+    update(const double current, const double weight)
+    {
+      force =
+        (previous < 0 ? current : previous + weight * (current - previous));
+      return force;
+    }
+
+    // Row of a PlaceTable
+    static constexpr unsigned int n_keys = 3;
+    static constexpr const char  *columns =
+      "key of the place of the node: upper and lower 32 bits; face; mean "
+      "normal force [N]";
+
+    bool
+    is_kept() const
+    {
+      return force >= 0;
+    }
+
+    auto
+    values()
+    {
+      return std::tie(force);
+    }
+  };
+
+
+
   /// One-sided contact with friction on faces of the mesh, node by node.
   template <int dim>
   class Seabed : public dealii::ParameterAcceptor
@@ -50,7 +100,7 @@ namespace talus
     }
 
     /// Area of @p face at @p node covered by boxes of points, m^(dim-1), from
-    /// SeabedCoverage; may slightly exceed the node's share of the face. Until
+    /// FaceCoverage; may slightly exceed the node's share of the face. Until
     /// set_covered_area() everything counts as covered.
     using CoveredArea =
       std::function<double(unsigned int face, unsigned int node)>;
@@ -79,13 +129,10 @@ namespace talus
                  unsigned int            face,
                  unsigned int            node) const;
 
-    /// Begin a step. Call before apply().
+    /// Begin a step. Call before apply(). Collective in the first step of a
+    /// resumed run.
     void
-    begin_step()
-    {
-      memory_.begin_step();
-      area_in_contact_ = 0;
-    }
+    begin_step(MPI_Comm communicator);
 
     /// Whether slip() matters: the seabed softens, or the trigger has a region.
     bool
@@ -107,11 +154,11 @@ namespace talus
       return slip_;
     }
 
-    /// Number of @p node on @p face in slip().
+    /// Number of the place of @p node on @p face, also in slip().
     unsigned int
     place_of(const unsigned int face, const unsigned int node) const
     {
-      return memory_.number(face, node);
+      return place_of_[face].at(node);
     }
 
     /// Area on which soil pressed on a seabed at the bottom of the mesh in the
@@ -177,7 +224,7 @@ namespace talus
     void
     list_state(StateList &list)
     {
-      memory_.list_state(list);
+      forces_.list_state("mean normal forces on the seabed", list);
       if (friction_.softens())
         slip_.list_state("slip of the seabed", list);
     }
@@ -195,10 +242,12 @@ namespace talus
     std::string maximum_shear_stress_text_ = "1000";
     bool        has_gap_                   = true;
 
-    InterfaceFriction      friction_;
-    NormalForceMemory<dim> memory_;
-    BedSlip<dim>           slip_;
-    CoveredArea            covered_area_ = [](unsigned int, unsigned int) {
+    InterfaceFriction friction_;
+    std::array<std::unordered_map<unsigned int, unsigned int>, 2 * dim>
+                                place_of_; ///< place of a node, by face
+    PlaceTable<MeanNormalForce> forces_;   ///< by place
+    BedSlip<dim>                slip_;     ///< by place
+    CoveredArea                 covered_area_ = [](unsigned int, unsigned int) {
       return std::numeric_limits<double>::max();
     };
     ShareLeft                            share_left_;

@@ -29,18 +29,9 @@ namespace talus
     void
     hold_walls(State<dim> &state, Boundaries<dim> &boundaries);
 
-    /// Read the velocities after the momentum update, and compute volume
-    /// fractions and masses at the nodes. Collective.
+    /// Read masses and velocities after the momentum update. Collective.
     void
     load(const State<dim> &state);
-
-    /// Volume of the soil at a node divided by the open volume outside of
-    /// obstacles [-], at most 1; also for ghosts.
-    double
-    fill(const unsigned int node) const
-    {
-      return records_[std::size_t(width) * node + filling];
-    }
 
     /// Number of facets at a node divided by the mass of the node, 1/kg; also
     /// for ghosts. Each facet gets an equal part of the mass.
@@ -88,11 +79,10 @@ namespace talus
     record_walls(State<dim> &state, Boundaries<dim> &boundaries) const;
 
   private:
-    // Record of a node, for messages: volume fraction [-], number of facets per
-    // mass [1/kg], velocity [m/s].
+    // Record of a node, for messages: number of facets per mass [1/kg],
+    // velocity [m/s].
     enum Record
     {
-      filling,
       splitting,
       moving,
       width = moving + dim

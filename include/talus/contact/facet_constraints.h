@@ -4,10 +4,8 @@
 
 #include <talus/boundaries/bed_slip.h>
 #include <talus/contact/contact_nodes.h>
-#include <talus/contact/facet_coverage.h>
 #include <talus/contact/facets.h>
-#include <talus/contact/nodal_gaps.h>
-#include <talus/contact/surface_tables.h>
+#include <talus/contact/soil_at_places.h>
 #include <talus/state/state.h>
 
 #include <vector>
@@ -42,27 +40,24 @@ namespace talus
     FacetConstraints(const Obstacles<dim>    &obstacles,
                      const Facets<dim>       &facets,
                      const ContactNodes<dim> &nodes,
+                     const SoilAtPlaces<dim> &soil,
                      const BedSlip<dim>      &slip)
       : obstacles_(obstacles)
       , facets_(facets)
       , nodes_(nodes)
+      , soil_(soil)
       , slip_(slip)
     {}
 
     /// Delete all constraints. Call after each change of the mesh or its
-    /// partition, after Facets::prepare(). Collective.
+    /// partition, after Facets::prepare().
     void
-    prepare(const Grid<dim> &grid);
+    prepare();
 
-    /// Compute the gaps between soil and surfaces. Call before find().
-    /// Collective.
-    void
-    find_gaps(const State<dim> &state);
-
-    /// Compute the constraints of Facets::owned() from ContactNodes and the
-    /// gaps. If @p has_memory, a running mean of the normal impulse limits
+    /// Compute the constraints of Facets::owned() from ContactNodes and
+    /// SoilAtPlaces. If @p has_memory, a running mean of the normal impulse limits
     /// friction, otherwise the current impulse. Throws ExcPoint if soil is at a
-    /// facet where cells of different size meet. Collective.
+    /// facet where cells of different size meet.
     void
     find(const State<dim> &state, bool has_memory);
 
@@ -121,16 +116,10 @@ namespace talus
     gap_inside(const Grid<dim>                        &grid,
                const typename Facets<dim>::NodeInside &inside) const
     {
-      return gaps_.room(inside.node, inside.obstacle, grid.finest_size());
+      return soil_.gap(inside.node, inside.obstacle, grid.finest_size());
     }
 
   private:
-    void
-    prepare_gaps(const Grid<dim> &grid, std::vector<unsigned int> slots);
-    std::vector<typename NodalGaps<dim>::Surface>
-    surfaces() const;
-    std::vector<unsigned int>
-    slots(const Grid<dim> &grid) const;
     bool
     find_shares(const ContactFacet<dim> &facet,
                 FacetConstraint<dim>    &constraint) const;
@@ -143,9 +132,6 @@ namespace talus
     averaging_weight(const State<dim>           &state,
                      const ContactFacet<dim>    &facet,
                      const FacetConstraint<dim> &constraint) const;
-    void
-    find_volume_fractions(const std::vector<ContactFacet<dim>> &facets,
-                          std::vector<double> &fractions) const;
     dealii::Tensor<1, dim>
     velocity(const ContactFacet<dim>    &facet,
              const FacetConstraint<dim> &constraint) const;
@@ -153,14 +139,10 @@ namespace talus
     const Obstacles<dim>             &obstacles_;
     const Facets<dim>                &facets_;
     const ContactNodes<dim>          &nodes_;
+    const SoilAtPlaces<dim>          &soil_;
     const BedSlip<dim>               &slip_; ///< by facet; empty: not kept
-    SurfaceTables<dim>                tables_{obstacles_};
-    NodalGaps<dim>                    gaps_; ///< surfaces: the obstacles
-    FacetCoverage<dim>                coverage_{obstacles_, facets_};
     std::vector<FacetConstraint<dim>> constraints_;
     std::vector<unsigned int>         loaded_;
-    std::vector<double>               fractions_; ///< by owned facet [-]
-    std::vector<double> fractions_of_ghosts_;     ///< by ghost facet [-]
   };
 } // namespace talus
 

@@ -52,7 +52,7 @@ namespace talus
     prepare(const Grid<dim> &grid) override;
 
     /// Advance obstacles with a prescribed velocity to the end of the time
-    /// step.
+    /// step, and examine the soil at all surfaces.
     void
     begin_step(State<dim> &state) override;
 
@@ -124,8 +124,24 @@ namespace talus
       return slip_;
     }
 
-    /// Compute the constraints of facets().owned() from masses and volumes of
-    /// the soil at the nodes. Collective.
+    /// Examine the soil at the surfaces, see soil(). Collective.
+    void
+    find_soil(const State<dim> &state)
+    {
+      take_restored(state);
+      soil_.find(state);
+    }
+
+    /// Soil at the seabeds and at facets().owned() in this step, after
+    /// begin_step() or find_soil().
+    const SoilAtPlaces<dim> &
+    soil() const
+    {
+      return soil_;
+    }
+
+    /// Compute the constraints of facets().owned() from soil() and the masses
+    /// at the nodes. Collective.
     void
     find_constraints(const State<dim> &state);
 
@@ -153,8 +169,8 @@ namespace talus
     void
     restore(const std::vector<double> &saved)
     {
-      impulses_.restore({});
-      impulses_.take(saved);
+      impulses_.restore(saved);
+      impulses_.update(impulses_.places());
     }
 
     /// Area that soil has slipped over, and the largest slip, where a surface
@@ -173,6 +189,8 @@ namespace talus
     }
     std::vector<BedPlace<dim>>
     places_of_facets() const;
+    void
+    update_places();
     void
     add_slip(const State<dim> &state);
     void
@@ -201,16 +219,18 @@ namespace talus
     Obstacles<dim>            &obstacles_;
     Boundaries<dim>           &boundaries_;
     Facets<dim>                facets_;
-    FacetImpulses<dim>         impulses_{facets_};
+    FacetImpulses<dim>         impulses_;
     BedSlip<dim>               slip_; ///< by facet
     std::vector<Reaction<dim>> reactions_;
     bool                       has_begun_          = false;
     double                     previous_time_step_ = 0; ///< s
 
     // Data of one step
+    SoilAtPlaces<dim>     soil_{obstacles_, facets_};
     ContactNodes<dim>     nodes_{facets_};
-    FacetConstraints<dim> constraints_{obstacles_, facets_, nodes_, slip_};
-    BodyCoupling<dim>     bodies_{obstacles_, facets_, constraints_, impulses_};
+    FacetConstraints<dim> constraints_{
+      obstacles_, facets_, nodes_, soil_, slip_};
+    BodyCoupling<dim> bodies_{obstacles_, facets_, constraints_, impulses_};
     std::vector<ImpulseInside> impulses_inside_;
   };
 } // namespace talus

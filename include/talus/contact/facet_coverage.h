@@ -69,10 +69,6 @@ namespace talus
       Mask         places = 0; ///< sample points; none: not yet computed
       /// Coordinate of each column, m, by axis across the facet.
       std::array<std::array<double, n_columns>, dim - 1> column{};
-      /// Coordinate of each sample point along the axis, m.
-      std::array<double, n_places> height{};
-      /// Sample points with the smallest and the largest coordinate there, m.
-      double lowest = 0, highest = 0;
 
       unsigned int
       size() const

@@ -3,20 +3,31 @@
 #define talus_contact_facet_impulses_h
 
 #include <talus/contact/facets.h>
-#include <talus/state/state.h>
+#include <talus/surface/place_table.h>
 
-#include <array>
+#include <tuple>
 #include <vector>
 
 namespace talus
 {
-  /// Identity of a facet in tables, on any number of ranks: key of the cell
-  /// (two numbers), number of the obstacle, ContactFacet::number.
-  using FacetName = std::array<double, 4>;
+  template <int dim>
+  PlaceKey
+  key_of(const ContactFacet<dim> &facet)
+  {
+    return place_key(facet.key, facet.obstacle, facet.number);
+  }
+
+
 
   template <int dim>
-  FacetName
-  name_of(const ContactFacet<dim> &facet);
+  std::vector<PlaceKey>
+  keys_of(const std::vector<ContactFacet<dim>> &facets)
+  {
+    std::vector<PlaceKey> keys;
+    for (const ContactFacet<dim> &facet : facets)
+      keys.push_back(key_of(facet));
+    return keys;
+  }
 
 
 
@@ -34,83 +45,33 @@ namespace talus
     {
       return normal > 0 || tangential.norm_square() > 0;
     }
-  };
 
-
-
-  /// Impulses of all facets in owned cells. As long as a facet with the same
-  /// FacetName exists, an impulse survives changes of the mesh and its
-  /// partition, motion of obstacles, and checkpoints.
-  template <int dim>
-  class FacetImpulses
-  {
-  public:
-    explicit FacetImpulses(const Facets<dim> &facets)
-      : facets_(facets)
-    {}
-
-    /// Return the impulses, one per facet of Facets::owned().
-    const std::vector<FacetImpulse<dim>> &
-    all() const
-    {
-      return impulses_;
-    }
-
-    FacetImpulse<dim> &
-    operator[](const unsigned int facet)
-    {
-      return impulses_[facet];
-    }
-
-    const FacetImpulse<dim> &
-    operator[](const unsigned int facet) const
-    {
-      return impulses_[facet];
-    }
-
-    /// Replace all impulses. @p impulses: one per facet of Facets::owned().
-    void
-    set(const std::vector<FacetImpulse<dim>> &impulses);
-
-    /// Return a row for each loaded facet: name_of(), normal impulse, effective
-    /// mass, mean normal impulse, tangential impulse. Between restore() and
-    /// take_restored(): return the restored rows.
-    std::vector<double>
-    rows() const;
-
-    /// Replace all impulses by @p rows, see rows(). Facets without a row get no
-    /// impulse; rows without a facet on this rank are ignored.
-    void
-    take(const std::vector<double> &rows);
-
-    /// Store @p rows of a checkpoint until take_restored(), when facets exist.
-    /// Empty @p rows delete stored ones.
-    void
-    restore(const std::vector<double> &rows)
-    {
-      restored_ = rows;
-    }
+    // Row of a PlaceTable
+    static constexpr unsigned int n_keys = 4;
+    static constexpr const char  *columns =
+      "key of the cell: upper and lower 32 bits; obstacle; number of the facet "
+      "in its cell; normal impulse [N s]; effective mass [kg]; mean normal "
+      "impulse [N s]; friction impulse [N s]";
 
     bool
-    has_restored() const
+    is_kept() const
     {
-      return !restored_.empty();
+      return effective_mass > 0;
     }
 
-    /// Give the restored rows, if any, to the facets.
-    void
-    take_restored();
-
-    void
-    list_state(StateList &list);
-
-  private:
-    static constexpr unsigned int n_columns = 7 + dim;
-
-    const Facets<dim>             &facets_;
-    std::vector<FacetImpulse<dim>> impulses_;
-    std::vector<double>            restored_; ///< rows of a checkpoint
+    auto
+    values()
+    {
+      return std::tie(normal, effective_mass, mean_normal, tangential);
+    }
   };
+
+
+
+  /// Impulses of all facets in owned cells. An impulse survives motion of
+  /// obstacles as long as the cell has a facet of the same number.
+  template <int dim>
+  using FacetImpulses = PlaceTable<FacetImpulse<dim>>;
 } // namespace talus
 
 #endif

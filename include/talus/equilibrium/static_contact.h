@@ -5,8 +5,10 @@
 #include <talus/equilibrium/static_facets.h>
 #include <talus/equilibrium/static_problem.h>
 #include <talus/equilibrium/unknowns.h>
+#include <talus/surface/place_table.h>
 
 #include <functional>
+#include <tuple>
 #include <vector>
 
 namespace talus
@@ -112,8 +114,7 @@ namespace talus
     struct Contact
     {
       unsigned int  node;
-      unsigned long key; ///< place of the node
-      unsigned int  k;   ///< index among the active nodes
+      unsigned int  k; ///< index among the active nodes
       unsigned int  face;
       unsigned char walls; ///< components held by walls, as bits
       double        area;  ///< m^(dim-1)
@@ -129,12 +130,26 @@ namespace talus
       friction_after_slip() const;
       double
       softening() const;
+
+      // Row of a PlaceTable
+      static constexpr unsigned int n_keys = 3;
+      static constexpr const char  *columns =
+        "key of the place of the node: upper and lower 32 bits; face; state; "
+        "friction [N]; reaction [N]";
+
+      bool
+      is_kept() const
+      {
+        return true;
+      }
+
+      auto
+      values()
+      {
+        return std::tie(state, friction, reaction);
+      }
     };
 
-    std::vector<double>
-    rows() const;
-    void
-    take(const std::vector<double> &rows);
     void
     limit_friction(Contact &contact) const;
 
@@ -144,11 +159,8 @@ namespace talus
                       const dealii::Tensor<1, dim> &u,
                       double                        weight) const;
 
-    static constexpr unsigned int n_columns = 4 + 2 * dim; ///< in rows()
-
-    std::vector<Contact> contacts_;
-    std::vector<double>  restored_; ///< rows from a checkpoint
-    StaticFacets<dim>    facets_;
+    PlaceTable<Contact> contacts_;
+    StaticFacets<dim>   facets_;
   };
 } // namespace talus
 

@@ -5,12 +5,13 @@
 #include <talus/equilibrium/static_problem.h>
 #include <talus/equilibrium/stiffness_matrix.h>
 #include <talus/equilibrium/unknowns.h>
+#include <talus/surface/place_table.h>
 
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 #include <array>
 #include <functional>
-#include <map>
+#include <tuple>
 #include <vector>
 
 namespace talus
@@ -27,7 +28,7 @@ namespace talus
   public:
     /// Find the contact points. The initial forces are the forces of the facets
     /// in @p problem, cut to the current friction. Contact points known from
-    /// the previous step or from restore() keep their gaps. @p modulus is the
+    /// the previous step or a checkpoint keep their gaps. @p modulus is the
     /// shear modulus of the soil, Pa. Collective.
     void
     begin(const StaticProblem<dim> &problem,
@@ -91,20 +92,14 @@ namespace talus
            const std::vector<double> &u,
            StrainMeasure              measure);
 
-    /// State of the contact points on this rank, one row each: name (see
-    /// ContactPoint), normal displacement since the points were last moved, m,
-    /// normal force, N. The forces of facets are also stored in FacetImpulses.
-    std::vector<double>
-    rows() const;
-
-    /// Store the @p rows of all ranks for the next begin().
+    /// Add the displacements and normal forces of the contact points to the
+    /// state. Without @p is_needed the table is empty. The forces of facets are
+    /// also stored in FacetImpulses.
     void
-    restore(const std::vector<double> &rows)
+    list_state(StateList &list, const std::function<bool()> &is_needed)
     {
-      restored_ = rows;
+      points_.list_state("static contact with obstacles", list, is_needed);
     }
-
-    static constexpr unsigned int n_columns = 6; ///< in rows()
 
   private:
     static constexpr unsigned int n_nodes = ContactFacet<dim>::n_nodes;
@@ -117,44 +112,48 @@ namespace talus
 
     struct ContactPoint
     {
-      /// Name of the facet. For a node inside an obstacle: key of the node (two
-      /// numbers), obstacle, -1.
-      FacetName                         name;
       std::array<unsigned int, n_nodes> node;
       std::array<double, n_nodes>       share;
       dealii::Point<dim>                place; ///< centroid, m
       dealii::Tensor<1, dim>            normal;
       double                            area = 0; ///< in contact, m^(dim-1)
-      double                 stiffness       = 0; ///< spring, N/m; 0: no soil
-      double                 gap    = 0; ///< at the start of the step, m
-      double                 opened = 0; ///< see Memory, m
-      CoulombLimit           limit;      ///< limit of friction
+      double stiffness                       = 0; ///< spring, N/m; 0: no soil
+      double gap    = 0;            ///< at the start of the step, m
+      double opened = 0;            ///< normal displacement since the
+                                    ///< points were last moved, m
+      CoulombLimit           limit; ///< limit of friction
       Force                  given, found;
       bool                   is_closed = false, slips = false;
       dealii::Tensor<1, dim> direction; ///< direction of friction when slipping
       double                 cut  = 0;  ///< friction over spring force [-]
       double                 slip = 0; ///< in the step where the point slips, m
       bool sticks_first           = false; ///< next tangent as if it stuck
+
+      // Row of a PlaceTable
+      static constexpr unsigned int n_keys = 4;
+      static constexpr const char  *columns =
+        "key of the cell or of the place of the node: upper and lower 32 bits; "
+        "obstacle; number of the facet in its cell, -1 for a node; normal "
+        "displacement [m]; normal force [N]";
+
+      bool
+      is_kept() const
+      {
+        return opened != 0 || found.normal > 0;
+      }
+
+      auto
+      values()
+      {
+        return std::tie(opened, found.normal);
+      }
     };
 
-    /// State of a contact point that is carried from load step to load step.
-    struct Memory
-    {
-      double opened; ///< normal displacement since points were last moved, m
-      double force;  ///< normal, N
-    };
-    using Memories = std::map<FacetName, Memory>;
-
-    Memories
-    memories() const;
     void
-    add_facets(const StaticProblem<dim> &problem,
-               const Memories           &before,
-               double                    modulus);
+    set_facets(const StaticProblem<dim> &problem, double modulus);
     void
-    add_nodes_inside(const StaticProblem<dim> &problem,
+    set_nodes_inside(const StaticProblem<dim> &problem,
                      const Unknowns<dim>      &unknowns,
-                     const Memories           &before,
                      double                    modulus);
     dealii::Tensor<1, dim>
     displacement(const ContactPoint &point, const std::vector<double> &u) const;
@@ -167,8 +166,7 @@ namespace talus
     unsigned int n_facets_     = 0;
     /// Contact points of the facets of this rank, followed by the contact
     /// points of nodes inside obstacles that touch no facet.
-    std::vector<ContactPoint> points_;
-    std::vector<double>       restored_; ///< rows from a checkpoint
+    PlaceTable<ContactPoint> points_;
   };
 } // namespace talus
 

@@ -4,7 +4,6 @@
 
 #include <talus/boundaries/boundaries.h>
 #include <talus/contact/facet_contact.h>
-#include <talus/contact/seabed_coverage.h>
 #include <talus/materials/materials.h>
 #include <talus/state/state.h>
 #include <talus/transfer/transfer.h>
@@ -25,7 +24,6 @@ namespace talus
     Boundaries<dim>      &boundaries;
     const Loads<dim>     &loads;
     FacetContact<dim>    &contact; ///< with obstacles
-    SeabedCoverage<dim>  &seabed_coverage;
     /// Height of the mudline above or below a place, m; not a number where the
     /// vertical meets no soil. Empty if the mudline is unknown.
     std::function<double(const dealii::Point<dim> &)> mudline = {};
@@ -49,7 +47,7 @@ namespace talus
       problem.transfer.scatter(state.with(problem.loads), batch);
     });
     state.nodes.sum_over_ranks(state.grid);
-    problem.seabed_coverage.find(state);
+    problem.contact.find_soil(state);
     problem.boundaries.add_tractions(state.nodes,
                                      state.grid,
                                      state.time,

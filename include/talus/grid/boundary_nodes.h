@@ -10,6 +10,11 @@
 
 namespace talus
 {
+  /// Number of the lower face along y, the bottom of the mesh, in 2-D and 3-D.
+  constexpr unsigned int bottom_face = 2;
+
+
+
   /// Part of a mesh face that a node represents. The share of a hanging node is
   /// distributed to its masters.
   struct FaceShare

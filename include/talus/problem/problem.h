@@ -5,7 +5,6 @@
 #include <talus/boundaries/boundaries.h>
 #include <talus/boundaries/damping.h>
 #include <talus/contact/facet_contact.h>
-#include <talus/contact/seabed_coverage.h>
 #include <talus/interaction/nodal_interactions.h>
 #include <talus/problem/bodies.h>
 #include <talus/problem/inputs.h>
@@ -184,7 +183,6 @@ namespace talus
     /// the list that are used directly.
     NodalInteractions<dim> interactions;
     Boundaries<dim>       &boundaries;
-    SeabedCoverage<dim>   &seabed_coverage;
     FacetContact<dim>     &contact; ///< contact with obstacles
     Damping<dim>          &damping;
     Water<dim>            &water;

@@ -4,10 +4,11 @@
 
 #include <talus/contact/facet_contact.h>
 #include <talus/state/state.h>
-#include <talus/water/bed_coverage.h>
+#include <talus/surface/place_table.h>
 #include <talus/water/solid_at_nodes.h>
 
 #include <array>
+#include <tuple>
 #include <vector>
 
 namespace talus
@@ -27,6 +28,24 @@ namespace talus
     double
       mobility; ///< max change of velocity per impulse if the facets around
                 ///< act in the same step, 1/kg
+
+    // Row of a PlaceTable
+    static constexpr unsigned int n_keys = 2;
+    static constexpr const char  *columns =
+      "key of the cell: upper and lower 32 bits; vector area [m^(dim-1)]; "
+      "normal [-]";
+
+    bool
+    is_kept() const
+    {
+      return true;
+    }
+
+    auto
+    values()
+    {
+      return std::tie(vector_area, normal);
+    }
   };
 
 
@@ -47,8 +66,8 @@ namespace talus
     void
     prepare(const Grid<dim> &grid);
 
-    /// Compute the facets in owned cells from the sums at the nodes and the
-    /// boxes of the points. Call update_soil() afterwards. Collective.
+    /// Compute the facets in owned cells from the sums at the nodes, the boxes of
+    /// the points and the soil at obstacles. Call update_soil() afterwards. Collective.
     void
     find(const State<dim> &state, const FacetContact<dim> &contact);
 
@@ -63,26 +82,17 @@ namespace talus
     void
     pass_to_masters(std::vector<double> &impulses) const;
 
-    /// Table with a row for each facet of this rank: key of the cell (two
-    /// numbers), vector area, m^(dim-1), and normal.
-    std::vector<double>
-                                  rows() const;
-    static constexpr unsigned int n_columns =
-      2 + 2 * dim; ///< columns of rows()
-
-    /// Store the @p rows of all ranks for the next update_soil(), which makes
-    /// facets of the rows.
+    /// Add the facets to the state of the run.
     void
-    restore(const std::vector<double> &rows)
+    list_state(StateList &list)
     {
-      restored_    = rows;
-      is_restored_ = true;
+      facets_.list_state("free surface", list);
     }
 
     const std::vector<SurfaceFacet<dim>> &
     facets() const
     {
-      return facets_;
+      return facets_.all();
     }
 
     /// Nodes of facets() without repetition, masters of hanging nodes among
@@ -112,8 +122,9 @@ namespace talus
   private:
     using NodesOfCell = std::array<unsigned int, power(2, dim)>;
 
-    // By node: volume fraction of soil in the open volume [-], covered shares
-    // of facets and of the lower face of the mesh [-].
+    // By node: volume fraction of soil in the open volume [-], area of the
+    // facets around the node in contact, m^(dim-1), and share of the lower face
+    // of the mesh in contact [-].
     enum Record
     {
       fraction,
@@ -144,9 +155,11 @@ namespace talus
     void
     clear_cells(const Grid<dim> &grid);
     void
-    fill_records(const State<dim> &state);
+    fill_records(const State<dim> &state, const FacetContact<dim> &contact);
     void
-    make_facets(const std::vector<double> &rows, const Grid<dim> &grid);
+    add_contact_areas(const FacetContact<dim> &contact);
+    void
+    move_facets(const Grid<dim> &grid);
     void
     list_nodes_of_facets(const Grid<dim> &grid);
     void
@@ -172,7 +185,7 @@ namespace talus
     set_mobilities(const Grid<dim> &grid);
 
     SolidAtNodes<dim>          solid_;
-    BedCoverage<dim>           coverage_;
+    FaceCoverage<dim>          at_bottom_;
     std::vector<unsigned int>  first_cell_, cells_; ///< by node, with ghosts
     NodalExchange<dim>         exchange_, exchange_of_soil_, exchange_of_areas_;
     NodalExchange<dim>         exchange_of_loads_;
@@ -188,10 +201,7 @@ namespace talus
     std::vector<unsigned char> is_listed_;     ///< by cell
     std::vector<dealii::Tensor<1, dim>> vector_areas_;   ///< by cell
     std::vector<double>                 areas_of_nodes_; ///< by node
-    std::vector<SurfaceFacet<dim>>      facets_;
-    std::vector<unsigned long>          key_of_facet_; ///< key of the cell
-    bool                                is_restored_ = false;
-    std::vector<double>                 restored_; ///< rows of a checkpoint
+    PlaceTable<SurfaceFacet<dim>>       facets_;         ///< by cell
   };
 } // namespace talus
 

@@ -55,15 +55,6 @@ namespace talus
       return records_[width * node + area];
     }
 
-    /// Minimum area of the facets around a node covered by boxes on the facets,
-    /// weighted by the shape function of the node, m^(dim-1): boxes parallel to
-    /// the axes leave gaps over an inclined surface.
-    double
-    min_covered_area(const unsigned int node) const
-    {
-      return records_[width * node + min_covered];
-    }
-
     /// Whether a node lies inside an obstacle, near its surface.
     bool
     contains(const unsigned int node) const
@@ -85,7 +76,6 @@ namespace talus
     {
       fraction,
       area,
-      min_covered,
       width
     };
 

@@ -39,7 +39,7 @@ namespace bed_slip_test
   double
   slip_of(const BedPlace<2> &place)
   {
-    return 0.1 * place.name[1];
+    return 0.1 * place.key[1];
   }
 
 

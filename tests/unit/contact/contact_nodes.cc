@@ -18,34 +18,34 @@ namespace contact_nodes_test
     soil.move(vector_xy<dim>(2., -1.));
     soil.find_constraints();
     unsigned int n_nodes = 0;
-    soil.for_each_node_of_facets(
-      [&](const unsigned int node, const Point<dim> &x) {
-        ++n_nodes;
-        const double fill = x[0] < 2.5 ? 1. : x[0] < 3.5 ? 0.5 : 0.;
-        EXPECT_NEAR(soil.contact_nodes.fill(node), fill, 1e-13) << x;
-        if (fill == 0.)
-          {
-            EXPECT_EQ(soil.contact_nodes.inverse_mass(node), 0.) << x;
-            EXPECT_EQ(soil.contact_nodes.velocity(node).norm(), 0.) << x;
-            return;
-          }
-        // Cells around the node above the bed, of which each has one facet.
-        double n_facets = 1., n_cells = (x[1] < 2.5 ? 0.5 : 1.);
-        for (unsigned int d = 0; d < dim; d += 2)
-          {
-            const bool is_end = x[d] < 0.5 || (d == 2 && x[d] > 1.5);
-            n_facets *= is_end ? 1. : 2.;
-            n_cells *= is_end ? 0.5 : 1.;
-          }
-        EXPECT_NEAR(soil.contact_nodes.inverse_mass(node),
-                    n_facets / (fill * n_cells * soil.density),
-                    1e-14)
-          << x;
-        EXPECT_LT(
-          (soil.contact_nodes.velocity(node) - vector_xy<dim>(2., -1.)).norm(),
-          1e-12)
-          << x;
-      });
+    soil.for_each_node_of_facets([&](const unsigned int node,
+                                     const Point<dim>  &x) {
+      ++n_nodes;
+      const double fill = x[0] < 2.5 ? 1. : x[0] < 3.5 ? 0.5 : 0.;
+      EXPECT_NEAR(soil.soil_at_places.volume_fraction(node), fill, 1e-13) << x;
+      if (fill == 0.)
+        {
+          EXPECT_EQ(soil.contact_nodes.inverse_mass(node), 0.) << x;
+          EXPECT_EQ(soil.contact_nodes.velocity(node).norm(), 0.) << x;
+          return;
+        }
+      // Cells around the node above the bed, of which each has one facet.
+      double n_facets = 1., n_cells = (x[1] < 2.5 ? 0.5 : 1.);
+      for (unsigned int d = 0; d < dim; d += 2)
+        {
+          const bool is_end = x[d] < 0.5 || (d == 2 && x[d] > 1.5);
+          n_facets *= is_end ? 1. : 2.;
+          n_cells *= is_end ? 0.5 : 1.;
+        }
+      EXPECT_NEAR(soil.contact_nodes.inverse_mass(node),
+                  n_facets / (fill * n_cells * soil.density),
+                  1e-14)
+        << x;
+      EXPECT_LT(
+        (soil.contact_nodes.velocity(node) - vector_xy<dim>(2., -1.)).norm(),
+        1e-12)
+        << x;
+    });
     EXPECT_EQ(MPI::sum(n_nodes, soil.grid.communicator()),
               dim == 2 ? 6u * 4u : 12u * 8u);
   }

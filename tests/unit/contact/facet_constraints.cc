@@ -200,9 +200,7 @@ TEST(FacetConstraints, SoilWhereCellsDifferInSizeIsRefused)
 {
   SoilOnBed<2> soil;
   soil.refine([](const Point<2> &x) { return x[0] < 2. && x[1] < 2.; });
-  soil.facets.prepare(soil.grid, soil.obstacles);
-  soil.contact_nodes.prepare(soil.grid);
-  soil.constraints.prepare(soil.grid);
+  soil.prepare_contact();
   soil.fill_boxes({0., 2.}, {2., 3.});
   soil.move({});
   const std::string message =

@@ -398,13 +398,13 @@ TEST(Facets, OfSmallBodiesAreClosed)
 // Two facets of one obstacle in one cell do not mix up their impulses.
 TEST(Facets, KeepTheirImpulses)
 {
-  const Cut<2>                 cut({"wall"}, notched);
-  FacetImpulses<2>             impulses(cut.facets), later(cut.facets);
-  std::vector<FacetImpulse<2>> given;
-  for (unsigned int i = 0; i < cut.facets.owned().size(); ++i)
-    given.push_back({1. + i, Tensor<1, 2>({0.5 * i, 2.}), 3. + i, 4. + i});
-  impulses.set(given);
-  later.take(impulses.rows());
+  const Cut<2>     cut({"wall"}, notched);
+  FacetImpulses<2> given, later;
+  for (FacetImpulses<2> *const impulses : {&given, &later})
+    impulses->update(keys_of(cut.facets.owned()));
+  for (unsigned int i = 0; i < given.size(); ++i)
+    given[i] = {1. + i, Tensor<1, 2>({0.5 * i, 2.}), 3. + i, 4. + i};
+  later.restore(given.rows());
   for (unsigned int i = 0; i < given.size(); ++i)
     {
       EXPECT_EQ(later[i].normal, given[i].normal);

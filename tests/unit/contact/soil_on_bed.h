@@ -41,9 +41,17 @@ namespace
           {"bed"})
     {
       this->contact.open_accounts(this->accounts);
+      prepare_contact();
+    }
+
+    /// Call after each change of the mesh.
+    void
+    prepare_contact()
+    {
       facets.prepare(grid, obstacles);
       contact_nodes.prepare(grid);
-      constraints.prepare(grid);
+      soil_at_places.prepare(grid, 0);
+      constraints.prepare();
     }
 
     static std::string
@@ -87,7 +95,7 @@ namespace
     find_constraints(const bool has_memory = false)
     {
       contact_nodes.hold_walls(*this, this->boundaries);
-      constraints.find_gaps(*this);
+      soil_at_places.find(*this);
       contact_nodes.load(*this);
       constraints.find(*this, has_memory);
     }
@@ -103,12 +111,11 @@ namespace
     }
 
     Facets<dim>           facets;
+    SoilAtPlaces<dim>     soil_at_places{obstacles, facets};
     ContactNodes<dim>     contact_nodes{facets};
     BedSlip<dim>          no_slip;
-    FacetConstraints<dim> constraints{obstacles,
-                                      facets,
-                                      contact_nodes,
-                                      no_slip};
+    FacetConstraints<dim> constraints{
+      obstacles, facets, contact_nodes, soil_at_places, no_slip};
   };
 
 

@@ -59,6 +59,7 @@ namespace
       this->sort();
       this->scatter();
       this->nodes.update_momentum(0., 0.);
+      contact.find_soil(*this);
       surface.find(*this, contact);
       surface.update_soil(*this);
       DragAreas<dim> result;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef talus_contact_seabed_coverage_h
-#define talus_contact_seabed_coverage_h
+#ifndef talus_contact_face_coverage_h
+#define talus_contact_face_coverage_h
 
-#include <talus/boundaries/boundaries.h>
-#include <talus/interaction/nodal_interaction.h>
+#include <talus/grid/nodal_exchange.h>
 #include <talus/state/state.h>
 #include <talus/transfer/weights.h>
 
@@ -11,31 +10,47 @@
 
 namespace talus
 {
-  /// Area of soil on the seabed faces of the mesh: the cross-sections of the
-  /// boxes near a face, distributed to the nodes of the face by the mean shape
-  /// functions of the boxes along the face. In contrast to an area from the
-  /// volume fraction of the cells, the area does not shrink with the thickness
-  /// of a layer thinner than a cell.
+  /// Area of soil on faces of the mesh: the cross-sections of the boxes near a
+  /// face, distributed to the nodes of the face by the mean shape functions of
+  /// the boxes along the face. In contrast to an area from the volume fraction
+  /// of the cells, the area does not shrink with the thickness of a layer
+  /// thinner than a cell.
   template <int dim>
-  class SeabedCoverage : public NodalInteraction<dim>
+  class FaceCoverage
   {
   public:
-    /// The friction of @p boundaries will use the areas.
-    explicit SeabedCoverage(Boundaries<dim> &boundaries);
-
-    /// Collect cells and nodes at the seabed. Call after each change of the
-    /// mesh or its partition.
+    /// Collect cells and nodes at @p faces (bit f for face f of the mesh). Call
+    /// after each change of the mesh or its partition.
     void
-    prepare(const Grid<dim> &grid) override;
+    prepare(const Grid<dim> &grid, unsigned char faces);
 
     /// Compute the areas from points and volumes at the nodes. Collective.
     void
     find(const State<dim> &state);
 
-    void
-    begin_step(State<dim> &state) override
+    /// Covered area of @p face around an owned node on the face, m^(dim-1); may
+    /// slightly exceed the area of the face there.
+    double
+    area(const unsigned int face, const unsigned int node) const
     {
-      find(state);
+      return areas_[n_faces_ * node + slot_[face]];
+    }
+
+    /// Share of @p face in contact with soil [-] around an owned node on the
+    /// face with the volume fraction @p f of soil [-].
+    double
+    share(const Grid<dim> &grid,
+          unsigned int     face,
+          unsigned int     node,
+          double           f) const;
+
+    /// Call action(face, node) for the owned nodes on the faces.
+    template <typename Action>
+    void
+    for_each_node(const Action &action) const
+    {
+      for (const NodeAtFace &at : nodes_)
+        action(at.face, at.node);
     }
 
   private:
@@ -78,11 +93,10 @@ namespace talus
       return areas_[n_faces_ * node + slot_[face]];
     }
 
-    Boundaries<dim>                  &boundaries_;
-    unsigned int                      n_faces_ = 0; ///< number of seabeds
-    std::array<unsigned int, 2 * dim> slot_{};      ///< index of a seabed
-    std::vector<CellAtFace>           cells_;       ///< sorted by cell
-    std::vector<NodeAtFace>           nodes_;       ///< at seabeds, owned
+    unsigned int                      n_faces_ = 0;
+    std::array<unsigned int, 2 * dim> slot_{};  ///< index of a face
+    std::vector<CellAtFace>           cells_;   ///< sorted by cell
+    std::vector<NodeAtFace>           nodes_;   ///< at the faces, owned
     std::vector<unsigned char>        is_full_; ///< bit f for face f, by node
     std::vector<double>               areas_;   ///< by node and slot
     NodalExchange<dim>                exchange_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/boundaries/contact_area.h>
 #include <talus/contact/box_extent.h>
-#include <talus/contact/seabed_coverage.h>
+#include <talus/contact/face_coverage.h>
 #include <talus/points/points_kernel.h>
 #include <talus/transfer/weights_kernel.h>
 
@@ -11,18 +11,6 @@
 namespace talus
 {
   using namespace dealii;
-
-  template <int dim>
-  SeabedCoverage<dim>::SeabedCoverage(Boundaries<dim> &boundaries)
-    : boundaries_(boundaries)
-  {
-    boundaries_.set_covered_area(
-      [this](const unsigned int face, const unsigned int node) {
-        return area(face, node);
-      });
-  }
-
-
 
   namespace
   {
@@ -48,19 +36,19 @@ namespace talus
   // layers at an upper face.
   template <int dim>
   void
-  SeabedCoverage<dim>::prepare(const Grid<dim> &grid)
+  FaceCoverage<dim>::prepare(const Grid<dim> &grid, const unsigned char faces)
   {
     n_faces_ = 0;
     cells_.clear();
     nodes_.clear();
     for (unsigned int face = 0; face < 2 * dim; ++face)
-      if (boundaries_.is_seabed(face))
+      if (faces & (1u << face))
         slot_[face] = n_faces_++;
     if (n_faces_ == 0)
       return;
     for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
       for (unsigned int face = 0; face < 2 * dim; ++face)
-        if (boundaries_.is_seabed(face))
+        if (faces & (1u << face))
           if (const unsigned int layers =
                 layers_to_face(grid.cells()[c], grid.domain(), face);
               layers < 2)
@@ -71,7 +59,7 @@ namespace talus
       hangs[hanging.node] = 1;
     for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
       for (unsigned int face = 0; face < 2 * dim; ++face)
-        if (boundaries_.is_seabed(face) && !hangs[node] &&
+        if ((faces & (1u << face)) && !hangs[node] &&
             (grid.faces_of_node(node) & (1u << face)))
           nodes_.push_back({node, face, grid.face_share(face, node).volume});
     is_full_.assign(grid.n_nodes(), 0);
@@ -83,7 +71,7 @@ namespace talus
 
   template <int dim>
   void
-  SeabedCoverage<dim>::find(const State<dim> &state)
+  FaceCoverage<dim>::find(const State<dim> &state)
   {
     if (n_faces_ == 0)
       return;
@@ -113,10 +101,24 @@ namespace talus
 
 
 
+  template <int dim>
+  double
+  FaceCoverage<dim>::share(const Grid<dim>   &grid,
+                           const unsigned int face,
+                           const unsigned int node,
+                           const double       f) const
+  {
+    const double whole = grid.face_share(face, node).area;
+    return f > 0 ? share_in_contact(std::min(1., area(face, node) / whole), f)
+                 : 0.;
+  }
+
+
+
   /// Distribute the areas of hanging nodes to their masters.
   template <int dim>
   void
-  SeabedCoverage<dim>::give_to_masters(const Grid<dim> &grid)
+  FaceCoverage<dim>::give_to_masters(const Grid<dim> &grid)
   {
     for (const auto &hanging : grid.hanging_nodes())
       for (unsigned int i = 0; i < n_faces_; ++i)
@@ -156,8 +158,8 @@ namespace talus
   /// where the covered area is not needed. Ghost nodes count as not full.
   template <int dim>
   bool
-  SeabedCoverage<dim>::is_covered_anyway(const Grid<dim>  &grid,
-                                         const CellAtFace &at) const
+  FaceCoverage<dim>::is_covered_anyway(const Grid<dim>  &grid,
+                                       const CellAtFace &at) const
   {
     const Cell<dim> &cell = grid.cells()[at.cell];
     if (!cell.uniform)
@@ -213,10 +215,10 @@ namespace talus
 
   template <int dim>
   void
-  SeabedCoverage<dim>::add_cell(const State<dim>  &state,
-                                const CellAtFace  &at,
-                                const unsigned int begin,
-                                const unsigned int end)
+  FaceCoverage<dim>::add_cell(const State<dim>  &state,
+                              const CellAtFace  &at,
+                              const unsigned int begin,
+                              const unsigned int end)
   {
     const Cell<dim>   &cell   = state.grid.cells()[at.cell];
     const Box<dim>     domain = state.grid.domain();
@@ -243,10 +245,10 @@ namespace talus
 
   template <int dim>
   void
-  SeabedCoverage<dim>::add_to_patch(const State<dim>  &state,
-                                    const CellAtFace  &at,
-                                    const unsigned int p,
-                                    const double       area_of_box)
+  FaceCoverage<dim>::add_to_patch(const State<dim>  &state,
+                                  const CellAtFace  &at,
+                                  const unsigned int p,
+                                  const double       area_of_box)
   {
     const Cell<dim>                       &cell = state.grid.cells()[at.cell];
     const unsigned int                     axis = at.face / 2;
@@ -279,10 +281,10 @@ namespace talus
   /// the mean shape functions of the box along the face.
   template <int dim>
   void
-  SeabedCoverage<dim>::add_by_weights(const State<dim>  &state,
-                                      const CellAtFace  &at,
-                                      const unsigned int p,
-                                      const double       area_of_box)
+  FaceCoverage<dim>::add_by_weights(const State<dim>  &state,
+                                    const CellAtFace  &at,
+                                    const unsigned int p,
+                                    const double       area_of_box)
   {
     weights_of_point(state.points,
                      state.grid,
@@ -305,6 +307,6 @@ namespace talus
 
 
 
-  template class SeabedCoverage<2>;
-  template class SeabedCoverage<3>;
+  template class FaceCoverage<2>;
+  template class FaceCoverage<3>;
 } // namespace talus

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_contact_soil_at_places_h
+#define talus_contact_soil_at_places_h
+
+#include <talus/boundaries/contact_area.h>
+#include <talus/contact/face_coverage.h>
+#include <talus/contact/facet_coverage.h>
+#include <talus/contact/facets.h>
+#include <talus/contact/nodal_gaps.h>
+#include <talus/contact/surface_tables.h>
+#include <talus/grid/nodal_exchange.h>
+
+#include <vector>
+
+namespace talus
+{
+  /// Soil at the surfaces of seabed and obstacles in the current step, from the
+  /// boxes of the points and the volumes at the nodes: the share of a surface
+  /// in contact, the gap between soil and surface, and the volume fraction of
+  /// soil outside of obstacles. Friction, static stages and water all ask here.
+  template <int dim>
+  class SoilAtPlaces
+  {
+  public:
+    SoilAtPlaces(const Obstacles<dim> &obstacles, const Facets<dim> &facets)
+      : obstacles_(obstacles)
+      , facets_(facets)
+    {}
+
+    /// Call after each change of the mesh or its partition, after
+    /// Facets::prepare(). @p faces: seabeds, bit f for face f of the mesh.
+    /// Collective.
+    void
+    prepare(const Grid<dim> &grid, unsigned char faces);
+
+    /// Examine the soil. Call after the transfer to the grid and after
+    /// obstacles have moved. Collective.
+    void
+    find(const State<dim> &state);
+
+    /// Soil on the seabeds.
+    const FaceCoverage<dim> &
+    at_faces() const
+    {
+      return at_faces_;
+    }
+
+    /// Volume of the soil at a node of a facet divided by the volume outside of
+    /// obstacles [-], at most 1; also for ghosts.
+    double
+    volume_fraction(const unsigned int node) const
+    {
+      return fractions_of_nodes_[node];
+    }
+
+    /// Mean of volume_fraction() at facet @p facet of Facets::owned() [-].
+    double
+    fraction(const unsigned int facet) const
+    {
+      return fractions_[facet];
+    }
+
+    /// Share of facet @p facet of Facets::owned() in contact with soil [-].
+    double
+    share(const unsigned int facet) const
+    {
+      return fractions_[facet] > 0
+               ? share_in_contact(coverage_[facet], fractions_[facet])
+               : 0.;
+    }
+
+    /// Clearance between the soil at a node and an obstacle, m: distance in
+    /// excess of the contact distance in cells of @p cell_size, m.
+    double
+    gap(const unsigned int node,
+        const unsigned int obstacle,
+        const double       cell_size) const
+    {
+      return gaps_.room(node, obstacle, cell_size);
+    }
+
+  private:
+    void
+    prepare_gaps(const Grid<dim> &grid, std::vector<unsigned int> slots);
+    std::vector<typename NodalGaps<dim>::Surface>
+    surfaces() const;
+    std::vector<unsigned int>
+    slots(const Grid<dim> &grid) const;
+    void
+    find_gaps(const State<dim> &state);
+    void
+    find_fractions_of_nodes(const State<dim> &state);
+    void
+    find_fractions(const std::vector<ContactFacet<dim>> &facets,
+                   std::vector<double>                  &fractions) const;
+
+    const Obstacles<dim> &obstacles_;
+    const Facets<dim>    &facets_;
+    FaceCoverage<dim>     at_faces_;
+    SurfaceTables<dim>    tables_{obstacles_};
+    NodalGaps<dim>        gaps_; ///< surfaces: the obstacles
+    FacetCoverage<dim>    coverage_{obstacles_, facets_};
+    NodalExchange<dim>    exchange_;
+    std::vector<double>   fractions_of_nodes_;  ///< by node [-]
+    std::vector<double>   fractions_;           ///< by owned facet [-]
+    std::vector<double>   fractions_of_ghosts_; ///< by ghost facet [-]
+  };
+} // namespace talus
+
+#endif
