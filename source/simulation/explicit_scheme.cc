@@ -6,6 +6,7 @@
 #include <talus/simulation/null_space_filter.h>
 #include <talus/transfer/box_rule.h>
 #include <talus/transfer/edge_reduction.h>
+#include <talus/transfer/film.h>
 
 #include <deal.II/base/mpi.h>
 
