@@ -174,10 +174,10 @@ namespace talus
 
     /// Shorten one edge and return its index, or dim if no edge is long.
     ///
-    /// Of two edges the edge that has grown more is shortened: shear has made
-    /// the edge, while the other connects neighbours since the creation. In a
-    /// film the choice decides whether the soil tears. Differences by round-off
-    /// decide nothing.
+    /// If several edges are long, shorten the edge with the largest growth
+    /// since the creation of the point. Shear has made this edge; an edge with
+    /// less growth connects the point with its neighbours. A film tears if the
+    /// wrong edge is shortened. Growths that differ by round-off are equal.
     template <int dim>
     unsigned int
     shorten_one(Edges<dim, double> &edges)
