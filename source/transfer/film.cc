@@ -15,10 +15,10 @@ namespace talus
 
 
   // Summed over the nodes of a cell, the shape functions are one in the cell
-  // and fall to zero across its neighbours: a layer of thickness t counts
-  // t (2 h)^(dim - 1), and full cells on one side of the cell count as a layer
-  // of h/2. A cell at the surface of thick soil is no film if 0.6 of the cell
-  // are full.
+  // and fall to zero across its neighbours: a layer of thickness t in the cell
+  // and in the cells beside counts t (2 h)^(dim - 1), and full cells below the
+  // cell count as a layer of h/2. At the surface of thick soil a cell is no
+  // film if 0.6 of the cell are full.
   template <int dim>
   bool
   is_film(const Cell<dim> &cell, const NodalFields<dim> &nodes)
