@@ -4,6 +4,7 @@
 #include <talus/base/errors.h>
 #include <talus/points/points_kernel.h>
 #include <talus/transfer/box_rule.h>
+#include <talus/transfer/film.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -59,14 +60,6 @@ namespace talus
                   "fit to round-off.",
                   this->prm,
                   Patterns::Double(0., 0.5));
-    add_parameter("Merge volume fraction",
-                  volume_fraction_,
-                  "Smallest volume of soil in a cell over the volume of the "
-                  "cell, with which points in the cell are merged [-]. A "
-                  "slide thinner than a cell tears if its points are merged. "
-                  "Mud on a base without slip needs fewer points with 0.",
-                  this->prm,
-                  Patterns::Double(0.));
   }
 
 
@@ -189,28 +182,6 @@ namespace talus
 
 
 
-  namespace
-  {
-    /// Volume of the points of all bodies in a cell, over the volume of the
-    /// cell. @p segments begin with the first of the cell, up to @p end.
-    template <int dim, typename Iterator>
-    double
-    volume_fraction(const Points<dim> &points,
-                    const Grid<dim>   &grid,
-                    Iterator           segment,
-                    const Iterator     end)
-    {
-      const unsigned int cell   = segment->cell;
-      double             volume = 0;
-      for (; segment != end && segment->cell == cell; ++segment)
-        for (unsigned int p = segment->begin; p < segment->end; ++p)
-          volume += volume_of_points<dim, double>(points, p);
-      return volume / Utilities::fixed_power<dim>(grid.cells()[cell].size);
-    }
-  } // namespace
-
-
-
   template <int dim>
   double
   Merger<dim>::merge(Points<dim>               &points,
@@ -220,14 +191,10 @@ namespace talus
                      const Splitter<dim>       &splitter)
   {
     removed_.clear();
-    double      loss = 0, fraction = 0;
-    const auto &segments = points.segments();
-    for (auto it = segments.begin(); it != segments.end(); ++it)
+    double loss = 0;
+    for (const Segment &segment : points.segments())
       {
-        const Segment &segment = *it;
-        if (it == segments.begin() || (it - 1)->cell != segment.cell)
-          fraction = volume_fraction(points, grid, it, segments.end());
-        if (fraction < volume_fraction_ || (is_kept_ && is_kept_(segment.body)))
+        if (is_kept_ && is_kept_(segment))
           continue;
         const Cell<dim> &cell = grid.cells()[segment.cell];
         members_.clear();
@@ -348,8 +315,10 @@ namespace talus
                      const Splitter<dim>  &splitter,
                      const Materials<dim> &materials)
   {
-    is_kept_ = [&materials](const unsigned int body) {
-      return materials.of_body(body).is_hyperelastic();
+    sum_volumes(state.points, state.grid, state.nodes);
+    is_kept_ = [&](const Segment &segment) {
+      return materials.of_body(segment.body).is_hyperelastic() ||
+             is_film(state.grid.cells()[segment.cell], state.nodes);
     };
     state.accounts.energy("merging work") +=
       merge(state.points,

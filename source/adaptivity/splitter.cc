@@ -64,8 +64,9 @@ namespace talus
   // Boxes that count shear follow V, which halves only if all edges are halved.
   template <int dim>
   void
-  Splitter<dim>::check(const BoxShape &shape) const
+  Splitter<dim>::prepare(const BoxShape &shape)
   {
+    rule_ = shape.rule;
     AssertThrow(!enabled_ || !shape.counts_shear || directions_ == "all",
                 ExcUser("'Splitting/Shear = counted', the rule of the paper, "
                         "splits points along all axes, but 'Splitting/"
@@ -87,10 +88,9 @@ namespace talus
   Splitter<dim>::exceeds_threshold(const PointsView<dim, const double> &points,
                                    const unsigned int                   p,
                                    const unsigned int                   d,
-                                   const double  cell_size,
-                                   const BoxRule rule) const
+                                   const double cell_size) const
   {
-    const Number length = length_to_split<Number, dim>(points, rule, d, p);
+    const Number length = length_to_split<Number, dim>(points, rule_, d, p);
     const auto   at_creation =
       load<Number>(points.data(points.length_at_creation, d) + p);
     const auto is_stretched = (length > threshold_ * at_creation) &
@@ -107,12 +107,11 @@ namespace talus
   unsigned int
   Splitter<dim>::axes_to_split(const Points<dim> &points,
                                const unsigned int p,
-                               const double       cell_size,
-                               const BoxRule      rule) const
+                               const double       cell_size) const
   {
     unsigned int axes = 0;
     for (unsigned int d = 0; d < dim; ++d)
-      if (exceeds_threshold<double>(points.view(), p, d, cell_size, rule))
+      if (exceeds_threshold<double>(points.view(), p, d, cell_size))
         axes |= 1u << d;
     return axes;
   }
@@ -126,19 +125,16 @@ namespace talus
   Splitter<dim>::may_exceed(const Points<dim> &points,
                             const unsigned int begin,
                             const unsigned int end,
-                            const double       cell_size,
-                            const BoxRule      rule) const
+                            const double       cell_size) const
   {
     const auto columns = points.view();
     bool       found   = false;
     for_each_simd(
       begin, end, [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
-        using Number = decltype(number);
-        auto may_exceed =
-          exceeds_threshold<Number>(columns, p, 0, cell_size, rule);
+        using Number    = decltype(number);
+        auto may_exceed = exceeds_threshold<Number>(columns, p, 0, cell_size);
         for (unsigned int d = 1; d < dim; ++d)
-          may_exceed |=
-            exceeds_threshold<Number>(columns, p, d, cell_size, rule);
+          may_exceed |= exceeds_threshold<Number>(columns, p, d, cell_size);
         found |=
           any(may_exceed & (load<Number>(columns.data(columns.generation) + p) <
                             Number(maximum_generation_)));
@@ -157,15 +153,14 @@ namespace talus
                                    const unsigned int p,
                                    const unsigned int axes,
                                    const double       cell_size,
-                                   const Grid<dim>   &grid,
-                                   const BoxRule      rule) const
+                                   const Grid<dim>   &grid) const
   {
     const Box<dim> &domain = grid.domain();
     Tensor<1, dim>  reach; // from the parent's to the children's centres, m
     for (unsigned int d = 0; d < dim; ++d)
       if (axes & (1u << d))
         {
-          const auto edge = edge_to_split(points, rule, d, p);
+          const auto edge = edge_to_split(points, rule_, d, p);
           for (unsigned int i = 0; i < dim; ++i)
             reach[i] += 0.25 * std::abs(edge[i]);
         }
@@ -182,24 +177,6 @@ namespace talus
 
 
 
-  namespace
-  {
-    /// Size of the cell at @p x, m, near cells of different sizes; the size of
-    /// @p old_cell if this rank does not know the cell.
-    template <int dim>
-    double
-    size_at(const Point<dim>  &x,
-            const Grid<dim>   &grid,
-            const unsigned int old_cell)
-    {
-      const unsigned int c = grid.find_cell(x);
-      return grid.cells()[c == numbers::invalid_unsigned_int ? old_cell : c]
-        .size;
-    }
-  } // namespace
-
-
-
   // A point that has entered a smaller cell must fit into it at once. A child
   // that would lie in a smaller cell must fit into the cell along all axes, as
   // otherwise its box would be clipped and leave gaps. Each further axis moves
@@ -209,20 +186,24 @@ namespace talus
   Splitter<dim>::axes_near_other_sizes(const Points<dim> &points,
                                        const Grid<dim>   &grid,
                                        const unsigned int p,
-                                       const BoxRule      rule,
                                        const unsigned int cell,
                                        double            &cell_size) const
   {
+    // This rank may not know the cell.
+    const auto size_at = [&](const Point<dim> &x) {
+      const unsigned int c = grid.find_cell(x);
+      return grid.cells()[c == numbers::invalid_unsigned_int ? cell : c].size;
+    };
     const Point<dim>                x = load_place(points, points.position, p);
     Point<dim>                      length;
     std::array<Tensor<1, dim>, dim> edge;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        edge[d]   = edge_to_split(points, rule, d, p);
+        edge[d]   = edge_to_split(points, rule_, d, p);
         length[d] = edge[d].norm();
       }
-    cell_size         = size_at(x, grid, cell);
-    unsigned int axes = axes_to_split(points, p, cell_size, rule);
+    cell_size         = size_at(x);
+    unsigned int axes = axes_to_split(points, p, cell_size);
     for (bool grew = (axes != 0); grew;)
       {
         grew = false;
@@ -232,7 +213,7 @@ namespace talus
             for (unsigned int d = 0; d < dim; ++d)
               if (axes & (1u << d))
                 child += ((corner >> d) & 1 ? 0.25 : -0.25) * edge[d];
-            const double size = size_at(child, grid, cell);
+            const double size = size_at(child);
             for (unsigned int d = 0; d < dim; ++d)
               if (!(axes & (1u << d)) && length[d] > (1. + 1e-9) * size)
                 {
@@ -251,15 +232,14 @@ namespace talus
   Splitter<dim>::required_axes(const Points<dim> &points,
                                const Grid<dim>   &grid,
                                const unsigned int p,
-                               const BoxRule      rule,
                                const unsigned int cell,
                                double            &cell_size) const
   {
     cell_size = grid.cells()[cell].size;
     const unsigned int axes =
       grid.cells()[cell].uniform
-        ? axes_to_split(points, p, cell_size, rule)
-        : axes_near_other_sizes(points, grid, p, rule, cell, cell_size);
+        ? axes_to_split(points, p, cell_size)
+        : axes_near_other_sizes(points, grid, p, cell, cell_size);
     return (axes != 0 && directions_ == "all") ? (1u << dim) - 1 : axes;
   }
 
@@ -268,11 +248,10 @@ namespace talus
   template <int dim>
   bool
   Splitter<dim>::is_stretched(const Points<dim> &points,
-                              const unsigned int p,
-                              const BoxRule      rule) const
+                              const unsigned int p) const
   {
     for (unsigned int d = 0; d < dim; ++d)
-      if (length_to_split<double, dim>(points.view(), rule, d, p) >
+      if (length_to_split<double, dim>(points.view(), rule_, d, p) >
           threshold_ * points.data(points.length_at_creation, d)[p])
         return true;
     return false;
@@ -285,8 +264,7 @@ namespace talus
   template <int dim>
   UnsplitPoints
   Splitter<dim>::count_unsplit(const Points<dim> &points,
-                               const Grid<dim>   &grid,
-                               const BoxRule      rule) const
+                               const Grid<dim>   &grid) const
   {
     UnsplitPoints count;
     if (!enabled_)
@@ -294,12 +272,12 @@ namespace talus
     points.for_each_point([&](const Segment &segment, const unsigned int p) {
       double             cell_size;
       const unsigned int axes =
-        required_axes(points, grid, p, rule, segment.cell, cell_size);
+        required_axes(points, grid, p, segment.cell, cell_size);
       if (axes == 0)
-        count.at_length_limit += is_stretched(points, p, rule);
+        count.at_length_limit += is_stretched(points, p);
       else if (points.data(points.generation)[p] >= maximum_generation_)
         ++count.at_generation_limit;
-      else if (!children_may_stay(points, p, axes, cell_size, grid, rule))
+      else if (!children_may_stay(points, p, axes, cell_size, grid))
         ++count.at_mesh_limit;
     });
     for (unsigned long *number : {&count.at_generation_limit,
@@ -378,8 +356,7 @@ namespace talus
   void
   Splitter<dim>::mark(const Points<dim> &points,
                       const Batch       &batch,
-                      const Grid<dim>   &grid,
-                      const BoxRule      rule)
+                      const Grid<dim>   &grid)
   {
     if (!enabled_)
       return;
@@ -396,24 +373,22 @@ namespace talus
         least             = std::min(least, size);
         most              = std::max(most, size);
       }
-    if (least == most &&
-        !may_exceed(points, batch.begin, batch.end, least, rule))
+    if (least == most && !may_exceed(points, batch.begin, batch.end, least))
       return;
     for (const Segment &segment : points.segments(batch))
       {
-        if (!may_exceed(
-              points, segment.begin, segment.end, min_size(segment), rule))
+        if (!may_exceed(points, segment.begin, segment.end, min_size(segment)))
           continue;
         for (unsigned int p = segment.begin; p < segment.end; ++p)
           {
             double             cell_size;
             const unsigned int axes =
-              required_axes(points, grid, p, rule, segment.cell, cell_size);
+              required_axes(points, grid, p, segment.cell, cell_size);
             // A point at the limit continues with a clipped box:
             // count_unsplit().
             if (axes != 0 &&
                 points.data(points.generation)[p] < maximum_generation_ &&
-                children_may_stay(points, p, axes, cell_size, grid, rule))
+                children_may_stay(points, p, axes, cell_size, grid))
               marked_.push_back({p, axes});
           }
       }
@@ -427,7 +402,6 @@ namespace talus
   template <int dim>
   bool
   Splitter<dim>::split_marked(Points<dim>               &points,
-                              const BoxRule              rule,
                               std::vector<unsigned int> &points_out_of_cell)
   {
     if (marked_.empty())
@@ -439,7 +413,7 @@ namespace talus
     for (const SplitMark &entry : marked_)
       {
         points_out_of_cell.push_back(entry.point);
-        split(points, rule, entry.point, entry.axes);
+        split(points, entry.point, entry.axes);
       }
     statistics_.n_splits += marked_.size();
     statistics_.conservation_error = conservation_.relative_error();
@@ -523,13 +497,12 @@ namespace talus
   template <int dim>
   void
   Splitter<dim>::split(Points<dim>       &points,
-                       const BoxRule      rule,
                        const unsigned int p,
                        const unsigned int axes)
   {
     conservation_.add(points, p, +1.);
     const unsigned int n_children = 1u << __builtin_popcount(axes);
-    const Offset<dim>  offset(points, rule, p, axes);
+    const Offset<dim>  offset(points, rule_, p, axes);
 
     // Prepare the common state of all children in the place of the parent.
     for (const Column &column : points.columns())
@@ -543,7 +516,7 @@ namespace talus
             points.data(points.edges, dim * i + d)[p] *= 0.5;
           points.data(points.box_length, d)[p] *= 0.5;
         }
-    begin_stretch(points, p, p + 1, rule);
+    begin_stretch(points, p, p + 1, rule_);
     const double generation = ++points.data(points.generation)[p];
     statistics_.largest_generation =
       std::max(statistics_.largest_generation,
@@ -586,8 +559,7 @@ namespace talus
                                                 state.grid,
                                                 state.constants.box_shape),
                             communicator));
-    const UnsplitPoints unsplit =
-      count_unsplit(state.points, state.grid, state.constants.box_shape.rule);
+    const UnsplitPoints unsplit = count_unsplit(state.points, state.grid);
     add("points at generation limit", unsplit.at_generation_limit);
     add("points at mesh limit", unsplit.at_mesh_limit);
     add("points at length limit", unsplit.at_length_limit);

@@ -533,7 +533,7 @@ namespace talus
     for (unsigned int face = 0; face < 2 * dim; ++face)
       check_expressions(face);
     seabed_.prepare(constants);
-    AssertThrow(has_seabed() || !seabed_.friction().softens(),
+    AssertThrow(has_seabed() || !seabed_.bed().softens(),
                 ExcUser("'Boundaries/Seabed/Slip to remould' is given, but no "
                         "face of the mesh is a seabed. Give the entry in the "
                         "section of an obstacle, set 'seabed' at a face, or "
@@ -552,7 +552,7 @@ namespace talus
   Boundaries<dim>::list_quantities(const State<dim> &state,
                                    Quantities       &list) const
   {
-    if (seabed_.friction().softens())
+    if (seabed_.bed().softens())
       append_slip("seabed", seabed_.slip(), state.communicator(), list);
   }
 

@@ -12,15 +12,13 @@ namespace talus
   template <int dim>
   Seabed<dim>::Seabed()
     : ParameterAcceptor("/Boundaries/Seabed")
-    , friction_("/Boundaries/Seabed")
+    , bed_("/Boundaries/Seabed",
+           "1000",
+           "Maximum shear stress tau_max that the seabed passes to the soil "
+           "[Pa]: a number, or an expression in x, y (, z) and depth, the "
+           "depth of the place below the mudline at the start [m], 0 without "
+           "soil above.")
   {
-    add_parameter(
-      "Maximum shear stress",
-      maximum_shear_stress_text_,
-      "Maximum shear stress tau_max that the seabed passes to the "
-      "soil [Pa]: a number, or an expression in x, y (, z) and "
-      "depth, the depth of the place below the mudline at the start "
-      "[m], 0 without soil above.");
     add_parameter("Gap",
                   has_gap_,
                   "Whether contact begins at the face: when the boxes of the "
@@ -36,11 +34,9 @@ namespace talus
   void
   Seabed<dim>::prepare(const Constants &constants)
   {
-    friction_.check();
-    cap_ = std::make_unique<ShearStressCap<dim>>(
-      "'Boundaries/Seabed/Maximum shear stress'",
-      maximum_shear_stress_text_,
-      constants);
+    bed_.prepare(constants);
+    if (!bed_.depends_on_place())
+      cap_ = bed_.maximum_shear_stress(Point<dim>());
   }
 
 
@@ -53,12 +49,12 @@ namespace talus
   {
     if (faces == 0)
       return;
-    if (!cap_->number())
+    if (bed_.depends_on_place())
       {
         cap_of_node_.assign(places.size(), 0.);
         for (unsigned int node = 0; node < places.size(); ++node)
           if (grid.faces_of_node(node) & faces)
-            cap_of_node_[node] = cap_->at(places[node]);
+            cap_of_node_[node] = bed_.maximum_shear_stress(places[node]);
       }
     const std::vector<unsigned long> keys_of_nodes = keys_of_owned_nodes(grid);
     std::vector<PlaceKey>            keys;
@@ -105,10 +101,10 @@ namespace talus
                      const double       area) const
   {
     const double share = share_left_ ? share_left_(face, node) : 1.;
-    return friction_.limit(share * maximum_shear_stress(node),
-                           area,
-                           keeps_slip() ? slip_.state(place_of(face, node))
-                                        : SurfaceState());
+    return bed_.limit(share * maximum_shear_stress(node),
+                      area,
+                      keeps_slip() ? slip_.state(place_of(face, node))
+                                   : SurfaceState());
   }
 
 
@@ -170,14 +166,14 @@ namespace talus
       area_in_contact_ += area;
     const double largest_friction =
       limit(face, node, area).force(mean_normal_force);
-    const double friction = friction_.impulse(mass * speed,
-                                              mass,
-                                              largest_friction,
-                                              mean_normal_force > 0 ? area : 0.,
-                                              dt);
+    const double friction = bed_.impulse(mass * speed,
+                                         mass,
+                                         largest_friction,
+                                         mean_normal_force > 0 ? area : 0.,
+                                         dt);
     // A sticking node does not slip, and soil without friction remoulds
     // nothing.
-    if (friction_.softens() && largest_friction > 0 && friction < mass * speed)
+    if (bed_.softens() && largest_friction > 0 && friction < mass * speed)
       slip_.add(place, (speed - friction / mass) * dt);
 
     Tensor<1, dim> normal_impulse;

@@ -163,11 +163,11 @@ namespace talus
   FacetConstraints<dim>::limit(const unsigned int facet) const
   {
     const ContactFacet<dim> &at = facets_.owned()[facet];
-    return obstacles_[at.obstacle].friction().limit(at.maximum_shear_stress,
-                                                    constraints_[facet].area,
-                                                    slip_.places().empty()
-                                                      ? SurfaceState()
-                                                      : slip_.state(facet));
+    return obstacles_[at.obstacle].bed().limit(at.maximum_shear_stress,
+                                               constraints_[facet].area,
+                                               slip_.places().empty()
+                                                 ? SurfaceState()
+                                                 : slip_.state(facet));
   }
 
 
@@ -191,7 +191,7 @@ namespace talus
                                           const double       dt) const
   {
     const FacetConstraint<dim> &constraint = constraints_[facet];
-    return obstacles_[facets_.owned()[facet].obstacle].friction().impulse(
+    return obstacles_[facets_.owned()[facet].obstacle].bed().impulse(
       trial,
       constraint.mass,
       friction_limit(facet, normal_impulse, dt) / dt,

@@ -95,7 +95,7 @@ namespace talus
       {
         const ContactFacet<dim> &facet   = facets_.owned()[c];
         const FacetImpulse<dim> &impulse = impulses_[c];
-        if (!obstacles_[facet.obstacle].friction().softens() ||
+        if (!obstacles_[facet.obstacle].bed().softens() ||
             constraints_[c].normal_mass == 0)
           continue;
         const double limit =

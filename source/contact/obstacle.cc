@@ -17,17 +17,15 @@ namespace talus
     : ParameterAcceptor("/Obstacles/" + name)
     , name_(name)
     , shape_parameters_("/Obstacles/" + name)
-    , friction_("/Obstacles/" + name)
+    , bed_("/Obstacles/" + name,
+           "",
+           "Maximum shear stress that the surface passes to the soil [Pa]: a "
+           "number, or an expression in x, y (, z), the place at the start, "
+           "and, for an obstacle at rest, in depth, the depth of the place "
+           "below the mudline at the start [m], 0 without soil above. Empty: "
+           "no limit.")
     , body_(name)
   {
-    add_parameter(
-      "Maximum shear stress",
-      maximum_shear_stress_text_,
-      "Maximum shear stress that the surface passes to the soil [Pa]: "
-      "a number, or an expression in x, y (, z), the place at the "
-      "start, and, for an obstacle at rest, in depth, the depth of "
-      "the place below the mudline at the start [m], 0 without soil "
-      "above. Empty: no limit.");
     add_parameter("Velocity",
                   velocity_text_,
                   "Components of the velocity of the obstacle, expressions in "
@@ -82,13 +80,7 @@ namespace talus
         everywhere.lower[d] = -everywhere.upper[d];
       }
     shape_ = shape_parameters_.make(everywhere);
-    friction_.check();
-    maximum_shear_stress_.reset();
-    if (limits_shear_stress())
-      maximum_shear_stress_ =
-        std::make_unique<ShearStressCap<dim>>(path("Maximum shear stress"),
-                                              maximum_shear_stress_text_,
-                                              constants);
+    bed_.prepare(constants);
     velocity_.reset();
     if (!velocity_text_.empty())
       velocity_ = std::make_unique<Expression<dim>>(path("Velocity"),
@@ -145,22 +137,22 @@ namespace talus
                              "that the surface far away would move without "
                              "bound. Use a shape with ends, or remove "
                              "rotation.")));
-    AssertThrow(!moves() || !depends_on_depth(),
+    AssertThrow(!moves() || !bed_.depends_on_depth(),
                 ExcUser(text(path("Maximum shear stress"),
                              " = ",
-                             maximum_shear_stress_text_,
+                             bed_.maximum_shear_stress_text(),
                              " depends on `depth`, the depth at the start, but "
                              "the obstacle moves (",
                              motion,
                              "). Give a stress without `depth`.")));
-    AssertThrow(!friction_.softens() || limits_shear_stress(),
+    AssertThrow(!bed_.softens() || bed_.limits_shear_stress(),
                 ExcUser(text(path("Slip to remould"),
                              " is given, but ",
                              path("Maximum shear stress"),
                              " is empty, so that slip has nothing to take "
                              "away. Give the stress of the intact surface in "
                              "Pa, or remove the slip.")));
-    AssertThrow(!friction_.softens() || !moves(),
+    AssertThrow(!bed_.softens() || !moves(),
                 ExcUser(text(path("Slip to remould"),
                              " is given, but the obstacle moves (",
                              motion,
@@ -269,8 +261,7 @@ namespace talus
   double
   Obstacle<dim>::maximum_shear_stress(const Point<dim> &x) const
   {
-    return limits_shear_stress() ? maximum_shear_stress_->at(at_start(x))
-                                 : std::numeric_limits<double>::infinity();
+    return bed_.maximum_shear_stress(at_start(x));
   }
 
 

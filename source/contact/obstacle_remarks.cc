@@ -114,8 +114,8 @@ namespace talus
   {
     std::vector<Remark> notes;
     for (unsigned int k = 0; k < obstacles.size(); ++k)
-      if (const double mu = obstacles[k].friction().coefficient();
-          mu > 0. && !obstacles[k].limits_shear_stress() &&
+      if (const double mu = obstacles[k].bed().coefficient();
+          mu > 0. && !obstacles[k].bed().limits_shear_stress() &&
           !has_end(obstacles[k].shape().bounding_box()))
         notes.emplace_back(
           text("there is no 'Maximum shear stress', but the soil has an "

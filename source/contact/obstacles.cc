@@ -156,41 +156,6 @@ namespace talus
 
   template <int dim>
   bool
-  Obstacles<dim>::limit_shear_stress() const
-  {
-    for (const auto &obstacle : obstacles_)
-      if (obstacle->limits_shear_stress())
-        return true;
-    return false;
-  }
-
-
-
-  template <int dim>
-  bool
-  Obstacles<dim>::depend_on_depth() const
-  {
-    return std::any_of(obstacles_.begin(),
-                       obstacles_.end(),
-                       [](const auto &obstacle) {
-                         return obstacle->depends_on_depth();
-                       });
-  }
-
-
-
-  template <int dim>
-  void
-  Obstacles<dim>::set_depth(const typename ShearStressCap<dim>::Depth &depth)
-  {
-    for (const auto &obstacle : obstacles_)
-      obstacle->set_depth(depth);
-  }
-
-
-
-  template <int dim>
-  bool
   Obstacles<dim>::move() const
   {
     for (const auto &obstacle : obstacles_)
@@ -232,38 +197,8 @@ namespace talus
     return std::any_of(obstacles_.begin(),
                        obstacles_.end(),
                        [](const auto &obstacle) {
-                         return obstacle->friction().softens();
+                         return obstacle->bed().softens();
                        });
-  }
-
-
-
-  template <int dim>
-  void
-  Obstacles<dim>::scale_triggered_region(const double factor)
-  {
-    for (const auto &obstacle : obstacles_)
-      obstacle->friction().scale_triggered_region(factor);
-  }
-
-
-
-  template <int dim>
-  void
-  Obstacles<dim>::scale_maximum_shear_stress(const double factor)
-  {
-    for (const auto &obstacle : obstacles_)
-      obstacle->friction().scale_shear_stress(factor);
-  }
-
-
-
-  template <int dim>
-  void
-  Obstacles<dim>::scale_strength(const double factor)
-  {
-    for (const auto &obstacle : obstacles_)
-      obstacle->friction().scale_strength(factor);
   }
 
 

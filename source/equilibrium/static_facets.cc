@@ -39,9 +39,8 @@ namespace talus
     n_loops_      = 0;
     is_symmetric_ = true;
     for (unsigned int k = 0; k < problem.contact.obstacles().size(); ++k)
-      is_symmetric_ =
-        is_symmetric_ &&
-        problem.contact.obstacles()[k].friction().coefficient() == 0;
+      is_symmetric_ = is_symmetric_ &&
+                      problem.contact.obstacles()[k].bed().coefficient() == 0;
     if (problem.contact.obstacles().empty())
       return;
     problem.contact.find_constraints(problem.state);

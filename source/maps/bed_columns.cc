@@ -55,16 +55,13 @@ namespace talus
       return;
     seabed.slip().for_each([&](const BedPlace<dim> &place) {
       if (place.key[2] == bottom_face)
-        add(place, seabed.friction().share_left(place.state()), h, columns);
+        add(place, seabed.bed().share_left(place.state()), h, columns);
     });
     const Ground<dim> ground(state.grid.domain(), &obstacles);
     facets.for_each([&](const BedPlace<dim> &place) {
       const unsigned int k = place.key[2];
       if (ground.contains(k))
-        add(place,
-            obstacles[k].friction().share_left(place.state()),
-            h,
-            columns);
+        add(place, obstacles[k].bed().share_left(place.state()), h, columns);
     });
     for (auto *sums : {&area_, &slip_, &share_})
       Utilities::MPI::sum(*sums, state.communicator(), *sums);

@@ -126,7 +126,7 @@ namespace talus
       fields.push_back(scalar_field(
         "share of bed shear stress left", "", [&contact](const unsigned int c) {
           const ContactFacet<dim> &facet = contact.facets().owned()[c];
-          return contact.obstacles()[facet.obstacle].friction().share_left(
+          return contact.obstacles()[facet.obstacle].bed().share_left(
             contact.slip().state(c));
         }));
     }

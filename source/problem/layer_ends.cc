@@ -269,14 +269,25 @@ namespace talus
 
 
     /// Return the place on the end of the layer in plan with the highest free
-    /// face, and the height of the face, m.
-    template <int dim, typename IsTaken>
+    /// face, and the height of the face, m. A face is free outside of @p shapes
+    /// other than shape @p b, and of obstacles.
+    template <int dim>
     std::pair<Point<dim>, double>
-    highest_free_end(const Layer<dim> &layer,
-                     const Box<dim>   &box,
-                     const Box<dim>   &domain,
-                     const IsTaken    &is_taken)
+    highest_free_end(const Layer<dim>                               &layer,
+                     const Box<dim>                                 &box,
+                     const std::vector<std::unique_ptr<Shape<dim>>> &shapes,
+                     const unsigned int                              b,
+                     const LayerSite<dim>                           &site)
     {
+      const OpenSpace<dim> open_space(site.solids);
+      const auto           is_taken = [&](const Point<dim> &x) {
+        return !open_space.contains(x) ||
+               std::any_of(shapes.begin(),
+                           shapes.end(),
+                           [&](const auto &shape) {
+                             return shape != shapes[b] && shape->contains(x);
+                           });
+      };
       std::pair<Point<dim>, double> result;
       const double                  distance = distance_in(box);
       for (const Point<dim> &x : plan_places(box, distance))
@@ -291,9 +302,9 @@ namespace talus
               const auto [lower, upper] = layer.ends(end);
               beyond                    = end;
               beyond[d] += 1e-3 * step;
-              const double bottom = std::max(lower, domain.lower[1]);
-              if (beyond[d] <= domain.lower[d] ||
-                  beyond[d] >= domain.upper[d] || upper <= bottom)
+              const double bottom = std::max(lower, site.domain.lower[1]);
+              if (beyond[d] <= site.domain.lower[d] ||
+                  beyond[d] >= site.domain.upper[d] || upper <= bottom)
                 continue;
               const double height =
                 open_length(beyond, bottom, upper, is_taken);
@@ -318,15 +329,8 @@ namespace talus
     const Layer<dim> layer(*shapes[b]);
     if (!layer.is_layer())
       return "";
-    const OpenSpace<dim> open_space(site.solids);
-    const auto           is_taken = [&](const Point<dim> &x) {
-      return !open_space.contains(x) ||
-             std::any_of(shapes.begin(), shapes.end(), [&](const auto &shape) {
-               return shape != shapes[b] && shape->contains(x);
-             });
-    };
     const auto [place, height] = highest_free_end(
-      layer, bodies[b]->bounding_box(site.domain), site.domain, is_taken);
+      layer, bodies[b]->bounding_box(site.domain), shapes, b, site);
     if (height < site.cell_size)
       return "";
     return text("The layer '",

@@ -41,9 +41,11 @@ namespace talus
                                                                 boundaries))
   {
     interactions.template add<SeabedGaps<dim>>(boundaries);
-    interactions.template add<SurfaceWeakening<dim>>(trigger,
-                                                     boundaries,
-                                                     obstacles);
+    beds_.push_back(&boundaries.seabed().bed());
+    for (unsigned int k = 0; k < obstacles.size(); ++k)
+      beds_.push_back(&obstacles[k].bed());
+    interactions.template add<SurfaceWeakening<dim>>(
+      trigger, beds_, boundaries.seabed().slip());
   }
 
 
@@ -67,10 +69,7 @@ namespace talus
     materials.assign(names, bodies_.names_of_materials());
     inputs_.strength_tables =
       tables_of_strength(materials, bodies_.size(), inputs_.folder);
-    trigger.check(names,
-                  materials,
-                  boundaries.has_seabed() || obstacles.limit_shear_stress(),
-                  end_time);
+    trigger.check(names, materials, limits_shear_stress(), end_time);
     // The strength factor is a column only if strengths change.
     materials.add_columns(points,
                           trigger.changes_strength() || changes_strength);
@@ -177,11 +176,9 @@ namespace talus
       add_remarks(notes_on_uncapped_beds(obstacles));
     add_remarks(inputs_.surfaces.notes_on_rising(from, to));
     // Without weight no slide shears in layers.
-    const auto on_thickness =
-      bodies_.measure_thickness(state.points,
-                                state.grid,
-                                boundaries.has_seabed() ||
-                                  obstacles.limit_shear_stress());
+    const auto on_thickness = bodies_.measure_thickness(state.points,
+                                                        state.grid,
+                                                        limits_shear_stress());
     if (loading.gravity().norm() > 0.)
       add_remarks(on_thickness);
     // Face 2 is the bottom in 2-D and 3-D.
@@ -198,11 +195,9 @@ namespace talus
   Problem<dim>::find_mudline(const Grid<dim> &grid)
   {
     const auto depth = bodies_.find_mudline(grid.domain_before_growth());
-    if (!depth || (!obstacles.depend_on_depth() &&
-                   !boundaries.seabed().depends_on_depth()))
-      return;
-    obstacles.set_depth(depth);
-    boundaries.set_depth(depth);
+    if (depth)
+      for (Bed<dim> *const bed : beds_)
+        bed->set_depth(depth);
   }
 
 

@@ -6,6 +6,7 @@
 #include <talus/simulation/null_space_filter.h>
 #include <talus/transfer/box_rule.h>
 #include <talus/transfer/edge_reduction.h>
+#include <talus/transfer/film.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -314,7 +315,7 @@ namespace talus
       reduce_edges(batch);
       update_box_lengths(state_.points, batch.begin, batch.end, rule);
       timer_.lap(PhaseTimer::stress_update);
-      splitter_.mark(state_.points, batch, state_.grid, rule);
+      splitter_.mark(state_.points, batch, state_.grid);
       timer_.lap(PhaseTimer::splitting);
     });
   }
@@ -358,7 +359,6 @@ namespace talus
   {
     PhaseTimer::Scope scope(timer_, "splitting");
     splitter_.split_marked(state_.points,
-                           transfer_.box_shape().rule,
                            state_.workspace.points_out_of_cell());
   }
 

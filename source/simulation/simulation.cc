@@ -132,7 +132,7 @@ namespace talus
     state_.constants.box_shape  = transfer_.box_shape();
     state_.constants.added_mass = problem_.water.added_mass_of_bodies();
     state_.constants.gravity    = problem_.loading.gravity();
-    scheme_.splitter().check(state_.constants.box_shape);
+    scheme_.splitter().prepare(state_.constants.box_shape);
     scheme_.merger().prepare(scheme_.splitter(), state_.constants.box_shape);
     problem_.open_accounts(state_.accounts);
     scheme_.merger().open_accounts(state_.accounts);

@@ -19,9 +19,7 @@ namespace talus
   SplitLimitRemark<dim>::remark(const State<dim> &state) const
   {
     const UnsplitPoints unsplit =
-      splitter_.count_unsplit(state.points,
-                              state.grid,
-                              state.constants.box_shape.rule);
+      splitter_.count_unsplit(state.points, state.grid);
     if (unsplit.at_generation_limit + unsplit.at_mesh_limit <=
         told_share *
           Utilities::MPI::sum(state.points.size(), state.communicator()))

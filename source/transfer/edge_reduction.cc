@@ -32,9 +32,6 @@ namespace talus
     // splitter has a limit and could not halve the edge.
     constexpr double max_growth = 4.6;
 
-    // Thickness in cells below which soil is a film, where the fraction is one.
-    constexpr double film_thickness = 0.5;
-
     // Growth at which shear that is counted must end.
     constexpr double max_counted_growth = 1000.;
 
@@ -177,10 +174,10 @@ namespace talus
 
     /// Shorten one edge and return its index, or dim if no edge is long.
     ///
-    /// Of two edges the edge that has grown more is shortened: shear has made
-    /// the edge, while the other connects neighbours since the creation. In a
-    /// film the choice decides whether the soil tears. Differences by round-off
-    /// decide nothing.
+    /// If several edges are long, shorten the edge with the largest growth
+    /// since the creation of the point. Shear has made this edge; an edge with
+    /// less growth connects the point with its neighbours. A film tears if the
+    /// wrong edge is shortened. Growths that differ by round-off are equal.
     template <int dim>
     unsigned int
     shorten_one(Edges<dim, double> &edges)
@@ -246,25 +243,6 @@ namespace talus
 
 
 
-  // Summed over the nodes of a cell, the shape functions are one in the cell
-  // and fall to zero across its neighbours: a layer of thickness t counts
-  // t (2 h)^(dim - 1), and full cells on one side of the cell count as a layer
-  // of h/2. Soil at the surface of a thick layer is no film.
-  template <int dim>
-  bool
-  is_film(const Cell<dim> &cell, const NodalFields<dim> &nodes)
-  {
-    double volume = 0;
-    for (const unsigned int node : cell.nodes())
-      volume += nodes.volume(node);
-    return volume < film_thickness * (1u << (dim - 1)) *
-                      Utilities::fixed_power<dim>(cell.size);
-  }
-
-
-
-  template decltype(is_film<2>)      is_film<2>;
-  template decltype(is_film<3>)      is_film<3>;
   template decltype(reduce_edges<2>) reduce_edges<2>;
   template decltype(reduce_edges<3>) reduce_edges<3>;
 } // namespace talus

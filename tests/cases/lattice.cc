@@ -242,12 +242,7 @@ TEST(SlabFailureLattice, TheWeakRowKeepsItsPoints)
   gates.at_most("points of the weak layer at 60 s",
                 weak_row(slab.points()).n_points,
                 1500.);
-  gates.falls_short("points at 60 s",
-                    slab.points().size(),
-                    15000.,
-                    {18500.,
-                     "points in cells that are not full are not merged, or a "
-                     "slide thinner than a cell would tear"});
+  gates.at_most("points at 60 s", slab.points().size(), 15000.);
 }
 
 

@@ -253,7 +253,7 @@ class Ranks(Runs):
             self.assert_same(self.run_on(n_ranks, settings, name), alone)
 
     def test_film(self):
-        """Soil thinner than half a cell, whose volume at the nodes all ranks must know."""
+        """Soil thinner than a cell, whose volume at the nodes all ranks must know."""
         name = CASES / "thin-slide.prm"
         alone = self.run_on(1, ["End time=12"] + TERSE, name)
         for n_ranks in (2, 4):

@@ -335,9 +335,9 @@ struct Core : FreshParameters, talus::State<dim>
   bool
   split()
   {
-    const talus::BoxRule rule = transfer.box_shape().rule;
-    splitter.mark(points, points.all(), grid, rule);
-    return splitter.split_marked(points, rule, workspace.points_out_of_cell());
+    splitter.prepare(transfer.box_shape());
+    splitter.mark(points, points.all(), grid);
+    return splitter.split_marked(points, workspace.points_out_of_cell());
   }
 
   /// The sums at all nodes of the mesh, hanging nodes condensed; from nothing,

@@ -139,16 +139,16 @@ namespace talus
                unsigned int          q,
                const JointCell<dim> &joint);
 
-    std::string  merge_           = "true";
-    bool         enabled_         = true;
-    unsigned int interval_        = 100;
-    double       length_          = 0.5;
-    double       tolerance_       = 0.15;
-    double       volume_fraction_ = 0.9;
+    std::string  merge_     = "true";
+    bool         enabled_   = true;
+    unsigned int interval_  = 100;
+    double       length_    = 0.5;
+    double       tolerance_ = 0.15;
 
-    /// Whether the points of a body stay: the stress of a hyperelastic law is a
-    /// function of F, and joint edges would change F.
-    std::function<bool(unsigned int)> is_kept_;
+    /// Whether the points of a segment are not merged: in a film, and of
+    /// hyperelastic laws, whose stress is a function of F, which joint edges
+    /// would change.
+    std::function<bool(const Segment &)> is_kept_;
 
     std::vector<unsigned int> members_; ///< points of the current segment
     std::vector<unsigned int> removed_;

@@ -30,18 +30,18 @@ namespace talus
   /// unchanged. Nodal sums change slightly unless the edges are parallel to the
   /// axes.
   ///
-  /// Where shear is counted (`Shear = counted`), the boxes parallel to the axes
-  /// are measured and halved instead. @cite esub
+  /// With `Shear = counted` a point is measured and halved along the axes of
+  /// the coordinates instead of the edges. @cite esub
   template <int dim>
   class Splitter : public dealii::ParameterAcceptor
   {
   public:
     Splitter();
 
-    /// Throw ExcUser if only stretched edges are to be halved although @p shape
-    /// counts shear.
+    /// Take over the rule for the boxes of the points. Throw ExcUser if only
+    /// stretched edges are to be halved although @p shape counts shear.
     void
-    check(const BoxShape &shape) const;
+    prepare(const BoxShape &shape);
 
     bool
     is_enabled() const
@@ -54,12 +54,8 @@ namespace talus
     /// @param points Points of this rank.
     /// @param batch Points to consider.
     /// @param grid Background grid.
-    /// @param rule Rule for the boxes of the points.
     void
-    mark(const Points<dim> &points,
-         const Batch       &batch,
-         const Grid<dim>   &grid,
-         BoxRule            rule);
+    mark(const Points<dim> &points, const Batch &batch, const Grid<dim> &grid);
 
     /// Split each point marked by mark() once. The first child replaces the
     /// parent and is added to @p points_out_of_cell; all further children are
@@ -69,7 +65,6 @@ namespace talus
     /// @return Whether any point was split.
     bool
     split_marked(Points<dim>               &points,
-                 BoxRule                    rule,
                  std::vector<unsigned int> &points_out_of_cell);
 
     /// Largest number of points allowed, over all ranks.
@@ -111,9 +106,7 @@ namespace talus
     /// a limit. The points must be sorted. All numbers are 0 if splitting is
     /// disabled. Collective.
     UnsplitPoints
-    count_unsplit(const Points<dim> &points,
-                  const Grid<dim>   &grid,
-                  BoxRule            rule) const;
+    count_unsplit(const Points<dim> &points, const Grid<dim> &grid) const;
 
     /// Append the number of splits so far, of boxes currently clipped for the
     /// weights and of points at a limit to @p list. Collective.
@@ -156,8 +149,7 @@ namespace talus
     exceeds_threshold(const PointsView<dim, const double> &points,
                       unsigned int                         p,
                       unsigned int                         d,
-                      double                               cell_size,
-                      BoxRule                              rule) const;
+                      double                               cell_size) const;
     /// Return false if no point of [@p begin, @p end) must be split in cells of
     /// size @p cell_size, m, or larger. Cheap, as several points are tested at
     /// a time.
@@ -165,15 +157,13 @@ namespace talus
     may_exceed(const Points<dim> &points,
                unsigned int       begin,
                unsigned int       end,
-               double             cell_size,
-               BoxRule            rule) const;
+               double             cell_size) const;
     /// Return the axes to split point @p p along: bit d stands for axis d, 0
     /// for none.
     unsigned int
     axes_to_split(const Points<dim> &points,
                   unsigned int       p,
-                  double             cell_size,
-                  BoxRule            rule) const;
+                  double             cell_size) const;
     /// Return false if the split of a point along @p axes would put a child
     /// farther outside the mesh than a point may lie at a wall: half a cell.
     /// The split is then postponed; meanwhile the box is clipped and counted.
@@ -182,8 +172,7 @@ namespace talus
                       unsigned int       p,
                       unsigned int       axes,
                       double             cell_size,
-                      const Grid<dim>   &grid,
-                      BoxRule            rule) const;
+                      const Grid<dim>   &grid) const;
     /// Axes to split point @p p along if cells of different sizes meet at
     /// @p cell, the cell into which the point is sorted. Sets @p cell_size to
     /// the size of the cell that now contains the point, m.
@@ -191,7 +180,6 @@ namespace talus
     axes_near_other_sizes(const Points<dim> &points,
                           const Grid<dim>   &grid,
                           unsigned int       p,
-                          BoxRule            rule,
                           unsigned int       cell,
                           double            &cell_size) const;
     /// Axes along which the criterion requires a split of point @p p, sorted
@@ -202,17 +190,16 @@ namespace talus
     required_axes(const Points<dim> &points,
                   const Grid<dim>   &grid,
                   unsigned int       p,
-                  BoxRule            rule,
                   unsigned int       cell,
                   double            &cell_size) const;
     /// Return whether point @p p is stretched beyond the threshold along an
     /// axis.
     bool
-    is_stretched(const Points<dim> &points, unsigned int p, BoxRule rule) const;
+    is_stretched(const Points<dim> &points, unsigned int p) const;
     void
     check_budget(const Points<dim> &points, std::size_t n_points) const;
     void
-    split(Points<dim> &points, BoxRule rule, unsigned int p, unsigned int axes);
+    split(Points<dim> &points, unsigned int p, unsigned int axes);
 
     bool         enabled_            = true;
     double       threshold_          = 1.4;
@@ -220,6 +207,8 @@ namespace talus
     double       minimum_length_     = 0.7;
     unsigned int maximum_generation_ = 12;
     unsigned int maximum_points_     = 10000000;
+
+    BoxRule rule_ = BoxRule::second_moments;
 
     struct SplitMark
     {

@@ -142,30 +142,6 @@ namespace talus
       return seabed_faces() != 0;
     }
 
-    /// Set the depth for the strength of the seabed. Call before prepare() if
-    /// the strength depends on the depth.
-    void
-    set_depth(const typename ShearStressCap<dim>::Depth &depth)
-    {
-      seabed_.set_depth(depth);
-    }
-
-    /// Set the multiplier @p factor [-] of the maximum shear stress of the
-    /// seabed.
-    void
-    scale_seabed_shear_stress(const double factor)
-    {
-      seabed_.friction().scale_shear_stress(factor);
-    }
-
-    /// Set the multiplier @p factor [-] of the maximum shear stress and the
-    /// friction coefficient of the seabed.
-    void
-    scale_seabed_strength(const double factor)
-    {
-      seabed_.friction().scale_strength(factor);
-    }
-
     /// Whether the two faces of an axis are periodic, by axis. Throws ExcUser
     /// if only one face is periodic.
     std::array<bool, dim>

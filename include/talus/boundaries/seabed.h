@@ -2,10 +2,9 @@
 #ifndef talus_boundaries_seabed_h
 #define talus_boundaries_seabed_h
 
-#include <talus/base/shear_stress_cap.h>
+#include <talus/boundaries/bed.h>
 #include <talus/boundaries/bed_slip.h>
 #include <talus/boundaries/boundary_condition.h>
-#include <talus/boundaries/interface_friction.h>
 #include <talus/surface/place_table.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -84,21 +83,8 @@ namespace talus
     bool
     depends_on_place() const
     {
-      return !cap_->number() || keeps_slip();
+      return bed_.depends_on_place() || keeps_slip();
     }
-    /// Whether set_depth() must be called before prepare_nodes().
-    bool
-    depends_on_depth() const
-    {
-      return cap_->depends_on_depth();
-    }
-
-    void
-    set_depth(const typename ShearStressCap<dim>::Depth &depth)
-    {
-      cap_->set_depth(depth);
-    }
-
     /// Area of @p face at @p node covered by boxes of points, m^(dim-1), from
     /// FaceCoverage; may slightly exceed the node's share of the face. Until
     /// set_covered_area() everything counts as covered.
@@ -138,7 +124,7 @@ namespace talus
     bool
     keeps_slip() const
     {
-      return friction_.softens() || slip_.has_region();
+      return bed_.softens() || slip_.has_region();
     }
 
     /// Slip of soil over the nodes.
@@ -200,16 +186,16 @@ namespace talus
     CoulombLimit
     limit(unsigned int face, unsigned int node, double area) const;
 
-    InterfaceFriction &
-    friction()
+    Bed<dim> &
+    bed()
     {
-      return friction_;
+      return bed_;
     }
 
-    const InterfaceFriction &
-    friction() const
+    const Bed<dim> &
+    bed() const
     {
-      return friction_;
+      return bed_;
     }
 
     /// List the nodes of @p faces (bit f for face f) and evaluate the maximum
@@ -225,7 +211,7 @@ namespace talus
     list_state(StateList &list)
     {
       forces_.list_state("mean normal forces on the seabed", list);
-      if (friction_.softens())
+      if (bed_.softens())
         slip_.list_state("slip of the seabed", list);
     }
 
@@ -234,15 +220,13 @@ namespace talus
     double
     maximum_shear_stress(const unsigned int node) const
     {
-      const auto &number = cap_->number();
-      return number ? *number : cap_of_node_[node];
+      return bed_.depends_on_place() ? cap_of_node_[node] : cap_;
     }
 
     // Parameters
-    std::string maximum_shear_stress_text_ = "1000";
-    bool        has_gap_                   = true;
+    bool has_gap_ = true;
 
-    InterfaceFriction friction_;
+    Bed<dim> bed_;
     std::array<std::unordered_map<unsigned int, unsigned int>, 2 * dim>
                                 place_of_; ///< place of a node, by face
     PlaceTable<MeanNormalForce> forces_;   ///< by place
@@ -250,10 +234,10 @@ namespace talus
     CoveredArea                 covered_area_ = [](unsigned int, unsigned int) {
       return std::numeric_limits<double>::max();
     };
-    ShareLeft                            share_left_;
-    double                               area_in_contact_ = 0; ///< m^(dim-1)
-    std::unique_ptr<ShearStressCap<dim>> cap_;                 ///< Pa
-    std::vector<double>                  cap_of_node_; ///< Pa, if not constant
+    ShareLeft           share_left_;
+    double              area_in_contact_ = 0; ///< m^(dim-1)
+    double              cap_ = 0;     ///< maximum shear stress if constant, Pa
+    std::vector<double> cap_of_node_; ///< otherwise, Pa
   };
 
 

@@ -3,9 +3,8 @@
 #define talus_contact_obstacle_h
 
 #include <talus/base/expression.h>
-#include <talus/base/shear_stress_cap.h>
 #include <talus/base/state_list.h>
-#include <talus/boundaries/interface_friction.h>
+#include <talus/boundaries/bed.h>
 #include <talus/contact/rigid_body.h>
 #include <talus/geometry/shape.h>
 #include <talus/geometry/shape_parameters.h>
@@ -106,43 +105,22 @@ namespace talus
     std::string
     remark() const;
 
-    /// Whether the surface has a maximum shear stress.
-    bool
-    limits_shear_stress() const
-    {
-      return !maximum_shear_stress_text_.empty();
-    }
-
     /// Maximum shear stress that the surface passes to the soil at @p x, Pa;
     /// infinite without limit.
     double
     maximum_shear_stress(const dealii::Point<dim> &x) const;
 
-    /// Whether set_depth() must be called before maximum_shear_stress().
-    bool
-    depends_on_depth() const
+    /// Law of friction along the surface.
+    const Bed<dim> &
+    bed() const
     {
-      return limits_shear_stress() && maximum_shear_stress_->depends_on_depth();
+      return bed_;
     }
 
-    void
-    set_depth(const typename ShearStressCap<dim>::Depth &depth)
+    Bed<dim> &
+    bed()
     {
-      if (limits_shear_stress())
-        maximum_shear_stress_->set_depth(depth);
-    }
-
-    /// Return the law of friction along the surface.
-    const InterfaceFriction &
-    friction() const
-    {
-      return friction_;
-    }
-
-    InterfaceFriction &
-    friction()
-    {
-      return friction_;
+      return bed_;
     }
 
     bool
@@ -237,17 +215,14 @@ namespace talus
 
     std::string          name_;
     ShapeParameters<dim> shape_parameters_;
-    InterfaceFriction    friction_;
+    Bed<dim>             bed_;
     RigidBody<dim>       body_;
 
     // Parameters
-    std::string maximum_shear_stress_text_ = "";
-    std::string velocity_text_             = "";
-    std::string reference_point_text_      = "";
+    std::string velocity_text_        = "";
+    std::string reference_point_text_ = "";
 
-    std::unique_ptr<Shape<dim>> shape_;
-    std::unique_ptr<ShearStressCap<dim>>
-                                     maximum_shear_stress_; ///< Pa, if limited
+    std::unique_ptr<Shape<dim>>      shape_;
     std::unique_ptr<Expression<dim>> velocity_;        ///< m/s; null: at rest
     dealii::Point<dim>               reference_point_; ///< at the start, m
     dealii::Tensor<1, dim>           displacement_;

@@ -97,14 +97,6 @@ namespace talus
     unsigned int
     nearest(const dealii::Point<dim> &x, const Numbers &some) const;
 
-    /// Whether a maximum shear stress depends on the depth below the mudline,
-    /// so that set_depth() must be called.
-    bool
-    depend_on_depth() const;
-
-    void
-    set_depth(const typename ShearStressCap<dim>::Depth &depth);
-
     /// Whether any obstacle moves.
     bool
     move() const;
@@ -140,27 +132,9 @@ namespace talus
     std::vector<std::string>
     remarks() const;
 
-    /// Whether any obstacle has a maximum shear stress.
-    bool
-    limit_shear_stress() const;
-
     /// Whether slip takes a part of a maximum shear stress away.
     bool
     soften() const;
-
-    /// Set the fraction @p factor [-] of all maximum shear stresses in the
-    /// region of the trigger.
-    void
-    scale_triggered_region(double factor);
-
-    /// Multiply all maximum shear stresses of the parameters by @p factor [-].
-    void
-    scale_maximum_shear_stress(double factor);
-
-    /// Multiply all friction coefficients and maximum shear stresses of the
-    /// parameters by @p factor [-].
-    void
-    scale_strength(double factor);
 
     void
     list_state(StateList &list);

@@ -98,13 +98,32 @@ namespace talus
       return boundaries.has_seabed() || !obstacles.empty();
     }
 
-    /// Multiply all resistance to sliding on seabed and obstacles by @p factor
-    /// [-], relative to the parameters.
+    /// All surfaces on which soil slides: the seabed, and the obstacles in
+    /// their order.
+    const std::vector<Bed<dim> *> &
+    beds() const
+    {
+      return beds_;
+    }
+
+    /// Return whether the shear stress on a surface has a maximum: on a seabed
+    /// face, or on an obstacle with the parameter.
+    bool
+    limits_shear_stress() const
+    {
+      return boundaries.has_seabed() ||
+             std::any_of(beds_.begin() + 1, beds_.end(), [](const auto *bed) {
+               return bed->limits_shear_stress();
+             });
+    }
+
+    /// Multiply all resistance to sliding on beds() by @p factor [-], relative
+    /// to the parameters.
     void
     scale_seabed_strength(const double factor)
     {
-      boundaries.scale_seabed_strength(factor);
-      obstacles.scale_strength(factor);
+      for (Bed<dim> *const bed : beds_)
+        bed->scale_strength(factor);
     }
 
     /// Time after which loads and strengths are constant, s; infinity if an
@@ -168,9 +187,10 @@ namespace talus
     void
     find_mudline(const Grid<dim> &grid);
 
-    Inputs<dim>         inputs_;
-    Bodies<dim>         bodies_;
-    std::vector<Remark> remarks_; ///< remarks on the initial state
+    Inputs<dim>             inputs_;
+    Bodies<dim>             bodies_;
+    std::vector<Remark>     remarks_; ///< remarks on the initial state
+    std::vector<Bed<dim> *> beds_;
 
   public:
     // Parts of the problem, for direct use.

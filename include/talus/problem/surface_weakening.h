@@ -2,8 +2,8 @@
 #ifndef talus_problem_surface_weakening_h
 #define talus_problem_surface_weakening_h
 
-#include <talus/boundaries/boundaries.h>
-#include <talus/contact/obstacles.h>
+#include <talus/boundaries/bed.h>
+#include <talus/boundaries/bed_slip.h>
 #include <talus/interaction/nodal_interaction.h>
 #include <talus/problem/trigger.h>
 
@@ -17,12 +17,13 @@ namespace talus
   class SurfaceWeakening : public NodalInteraction<dim>
   {
   public:
-    SurfaceWeakening(const Trigger<dim> &trigger,
-                     Boundaries<dim>    &boundaries,
-                     Obstacles<dim>     &obstacles)
+    /// @param slip tells whether the trigger has a region
+    SurfaceWeakening(const Trigger<dim>            &trigger,
+                     const std::vector<Bed<dim> *> &beds,
+                     const BedSlip<dim>            &slip)
       : trigger_(trigger)
-      , boundaries_(boundaries)
-      , obstacles_(obstacles)
+      , beds_(beds)
+      , slip_(slip)
     {}
 
     void
@@ -30,17 +31,17 @@ namespace talus
     {
       const double factor =
         trigger_.seabed_factor(state.time + state.time_step);
-      const bool has_region = boundaries_.seabed().slip().has_region();
-      boundaries_.scale_seabed_shear_stress(has_region ? 1. : factor);
-      obstacles_.scale_maximum_shear_stress(has_region ? 1. : factor);
-      boundaries_.seabed().friction().scale_triggered_region(factor);
-      obstacles_.scale_triggered_region(factor);
+      for (Bed<dim> *const bed : beds_)
+        {
+          bed->scale_shear_stress(slip_.has_region() ? 1. : factor);
+          bed->scale_triggered_region(factor);
+        }
     }
 
   private:
-    const Trigger<dim> &trigger_;
-    Boundaries<dim>    &boundaries_;
-    Obstacles<dim>     &obstacles_;
+    const Trigger<dim>            &trigger_;
+    const std::vector<Bed<dim> *> &beds_;
+    const BedSlip<dim>            &slip_;
   };
 } // namespace talus
 

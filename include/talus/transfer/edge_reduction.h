@@ -2,7 +2,6 @@
 #ifndef talus_transfer_edge_reduction_h
 #define talus_transfer_edge_reduction_h
 
-#include <talus/grid/nodal_fields.h>
 #include <talus/points/points.h>
 
 #include <functional>
@@ -32,13 +31,6 @@ namespace talus
                unsigned int                             end,
                bool                                     counts_shear,
                const std::function<bool(unsigned int)> &is_in_film = {});
-
-  /// Return whether the soil in a cell and around it is a film thinner than
-  /// half of the cell. The volumes of soil must be known at the nodes of the
-  /// cell, see NodalFields::share_volumes().
-  template <int dim>
-  bool
-  is_film(const Cell<dim> &cell, const NodalFields<dim> &nodes);
 } // namespace talus
 
 #endif

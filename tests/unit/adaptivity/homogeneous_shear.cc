@@ -23,8 +23,7 @@ namespace
       : Core<dim>(cube<dim>())
     {
       dealii::ParameterAcceptor::prm.parse_input_from_string(
-        in_section("Splitting",
-                   "set Merge = all\nset Merge volume fraction = 0"));
+        in_section("Splitting", "set Merge = all"));
       dealii::ParameterAcceptor::parse_all_parameters();
       merger.prepare(this->splitter, this->transfer.box_shape());
       Tensor<1, dim> length;

@@ -23,9 +23,7 @@ namespace
     {
       // The splitter's parameters, which share the section, stay.
       dealii::ParameterAcceptor::prm.parse_input_from_string(
-        in_section("Splitting",
-                   "set Merge = all\nset Merge volume fraction = 0\n" +
-                     of_merging));
+        in_section("Splitting", "set Merge = all\n" + of_merging));
       dealii::ParameterAcceptor::parse_all_parameters();
     }
 
@@ -280,6 +278,10 @@ namespace
         materials.of_body(body).initialize(core.points, 2 * body, 2 * body + 2);
       }
     core.sort();
+    core.merger.apply(core, core.splitter, materials);
+    EXPECT_EQ(core.points.size(), 4u) << "a film is merged";
+    for (unsigned int p = 0; p < 4; ++p)
+      core.points.data(core.points.reference_volume)[p] = 1.;
     core.merger.apply(core, core.splitter, materials);
     std::array<unsigned int, 2> n{{0, 0}};
     for (unsigned int p = 0; p < core.points.size(); ++p)

@@ -184,9 +184,7 @@ namespace
     core.sort();
     core.split();
     core.sort();
-    return core.splitter.count_unsplit(core.points,
-                                       core.grid,
-                                       core.transfer.box_shape().rule);
+    return core.splitter.count_unsplit(core.points, core.grid);
   }
 
 

@@ -23,6 +23,7 @@ namespace body_coupling_test
       this->time_step = 0.1;
       this->fill_boxes({0., 2.}, {6., 3.5});
       this->move(before);
+      this->contact.find_soil(*this);
       this->contact.correct_velocities(*this);
       this->nodes.share_with_ghosts(this->grid);
       this->contact.record(*this);

@@ -24,6 +24,7 @@ namespace facet_contact_test
       this->fill_boxes({0., 2. + height}, {6., 3.5 + height});
       this->move(before);
       const double energy_before = energy();
+      this->contact.find_soil(*this);
       this->contact.correct_velocities(*this);
       this->nodes.share_with_ghosts(this->grid);
       this->contact.record(*this);
@@ -136,6 +137,7 @@ TEST(FacetContact, ImpulsesAreForcesOfThePreviousStep)
   // A force of 2 m / 0.1 s for 0.05 s stops soil that falls with 1 m/s.
   soil.time_step = 0.05;
   soil.move(Point<2>(0., -1.));
+  soil.contact.find_soil(soil);
   soil.contact.correct_velocities(soil);
   soil.before = Point<2>(0., -1.);
   for (const FacetImpulse<2> &impulse : soil.contact.impulses())
@@ -174,6 +176,7 @@ TEST(FacetContact, WorkOfSofteningBySlip)
       while (s_max() < end)
         {
           soil.move(Point<2>(5., -1e-3));
+          soil.contact.find_soil(soil);
           soil.contact.correct_velocities(soil);
           soil.nodes.share_with_ghosts(soil.grid);
           soil.contact.record(soil);

@@ -15,6 +15,7 @@ namespace contact_area_remark_test
       time_step = 0.1;
       fill_boxes({0., 2. + height}, {3., 3.5 + height});
       move(Point<2>(0., -1.));
+      contact.find_soil(*this);
       contact.correct_velocities(*this);
     }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/transfer/edge_reduction.h>
+#include <talus/transfer/film.h>
 
 #include "core_setup.h"
 
@@ -99,14 +100,14 @@ namespace
 
 
 
-  // A layer of 0.4 cells is a film; the surface of a thick layer is none.
+  // A layer of one cell is a film; the surface of a thick layer is none.
   TEST(EdgeReduction, WhatIsAFilm)
   {
     for (const auto &[height, is_thin] : std::vector<std::pair<double, bool>>{
-           {0.4, true}, {0.6, false}, {1.1, false}})
+           {0.4, true}, {1., true}, {1.7, false}})
       {
         Core<2>            core(cube<2>());
-        const unsigned int n_rows = (height > 1. ? 2 : 1);
+        const unsigned int n_rows = 4;
         const Tensor<1, 2> length({0.25, height / n_rows});
         for (unsigned int row = 0; row < n_rows; ++row)
           for (unsigned int i = 0; i < 12; ++i)
@@ -115,7 +116,10 @@ namespace
         core.sort();
         core.scatter();
         const unsigned int cell =
-          core.grid.find_cell(Point<2>(1.5, height > 1. ? 1.05 : 0.5 * height));
+          core.grid.find_cell(Point<2>(1.5, 0.9 * height));
+        EXPECT_EQ(is_film(core.grid.cells()[cell], core.nodes), is_thin)
+          << height;
+        sum_volumes(core.points, core.grid, core.nodes);
         EXPECT_EQ(is_film(core.grid.cells()[cell], core.nodes), is_thin)
           << height;
       }
