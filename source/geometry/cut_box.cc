@@ -87,7 +87,7 @@ namespace talus
       const double     size     = box.length(0);
       const double     diagonal = box.lower.distance(box.upper);
       const Point<dim> centre   = box.lower + 0.5 * (box.upper - box.lower);
-      const auto   value    = [&](const Point<dim> &x) {
+      const auto       value    = [&](const Point<dim> &x) {
         const double d = distance(x);
         return std::abs(d) < 1e-9 * size ? 0. : d;
       };
