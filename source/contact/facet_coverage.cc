@@ -274,11 +274,11 @@ namespace talus
 
 
   /// Add the samples reached by boxes of the points in cell @p c, moved by
-  /// @p shift, m. A box counts if it is near the plane of the facet and not
-  /// below, as a whole: over a plane inclined to its sides the box stands for
-  /// soil that lies on the plane. A box reaches a third of a cell beyond its ends, from
-  /// one side only: a hole between two boxes counts as covered, but the end of
-  /// a layer is not moved.
+  /// @p shift, m. A box counts as a whole if it is near the plane of the facet
+  /// and not below: over a plane inclined to its sides the box stands for soil
+  /// that lies on the plane. A box reaches a third of a cell beyond its ends,
+  /// from one side only: a hole between two boxes counts as covered, but the
+  /// end of a layer is not moved.
   template <int dim>
   void
   FacetCoverage<dim>::add_points_of(const State<dim>        &state,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Contact does not depend on the directions of the axes, nor on the way in which
-// a file says that an obstacle is at rest: slide-over-ridge.prm,
+// Contact does not depend on the directions of the axes, nor on the way in
+// which a file says that an obstacle is at rest: slide-over-ridge.prm,
 // box-in-slide-3d.prm.
 
 #include "case.h"

@@ -55,9 +55,9 @@ namespace talus
     prepare();
 
     /// Compute the constraints of Facets::owned() from ContactNodes and
-    /// SoilAtPlaces. If @p has_memory, a running mean of the normal impulse limits
-    /// friction, otherwise the current impulse. Throws ExcPoint if soil is at a
-    /// facet where cells of different size meet.
+    /// SoilAtPlaces. If @p has_memory, a running mean of the normal impulse
+    /// limits friction, otherwise the current impulse. Throws ExcPoint if soil
+    /// is at a facet where cells of different size meet.
     void
     find(const State<dim> &state, bool has_memory);
 

@@ -66,8 +66,9 @@ namespace talus
     void
     prepare(const Grid<dim> &grid);
 
-    /// Compute the facets in owned cells from the sums at the nodes, the boxes of
-    /// the points and the soil at obstacles. Call update_soil() afterwards. Collective.
+    /// Compute the facets in owned cells from the sums at the nodes, the boxes
+    /// of the points and the soil at obstacles. Call update_soil() afterwards.
+    /// Collective.
     void
     find(const State<dim> &state, const FacetContact<dim> &contact);
 
