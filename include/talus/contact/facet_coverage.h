@@ -65,7 +65,7 @@ namespace talus
     /// so one comparison per column tests all sample points of the column.
     struct Samples
     {
-      unsigned int axis   = 0; ///< one of the nearest to the normal
+      unsigned int axis   = 0; ///< an axis nearest to the normal
       Mask         places = 0; ///< sample points; none: not yet computed
       /// Coordinate of each column, m, by axis across the facet.
       std::array<std::array<double, n_columns>, dim - 1> column{};
