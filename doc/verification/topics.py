@@ -27,7 +27,8 @@ PAGES = [
     ("contact", "Seabed, obstacles and water", [
         ("Seabed", ["Block"]),
         ("Thin layers", ["ThinLayers"]),
-        ("Obstacles", ["BlockOnPlane", "Arc", "Container", "Bowl"]),
+        ("Obstacles", ["BlockOnPlane", "Arc", "Container", "Bowl",
+                       "Symmetry", "RollingDisc"]),
         ("Pipes in clay", ["Pipe", "PipeRefined"]),
         ("Obstacles moved by forces", ["BodyOnSprings", "DraggedPipe"]),
         ("Water", ["BlockInWater", "SheetInWater"]),

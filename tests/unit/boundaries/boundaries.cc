@@ -43,6 +43,8 @@ namespace
       this->boundaries.prepare(this->grid);
       this->boundaries.set_covered_area(
         [=](const unsigned int, const unsigned int) { return covered_area; });
+      this->boundaries.set_gap(
+        [](const unsigned int, const unsigned int) { return 0.; });
       this->boundaries.add_tractions(nodes, this->grid, 0., 0.);
       nodes.update_momentum(dt, 0.);
       kinetic_energy_before = 0.5 * mass * before.norm_square();

@@ -20,6 +20,8 @@ namespace
       dealii::ParameterAcceptor::parse_all_parameters();
       boundaries.parse(Constants());
       boundaries.prepare(grid);
+      boundaries.set_gap(
+        [](const unsigned int, const unsigned int) { return 0.; });
       std::vector<unsigned int> all(grid.cells().size());
       for (unsigned int c = 0; c < all.size(); ++c)
         all[c] = c;
