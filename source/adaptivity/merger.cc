@@ -111,47 +111,27 @@ namespace talus
   ///
   /// Each point, in the order of positions, is merged with the best fitting of
   /// the points behind until none fits. A row of boxes is thus merged from its
-  /// end nearest to a face of the cell, the lower end if both are equally near.
-  /// Soil and its mirror image are merged alike, and round-off in the misfits,
-  /// which depends on the number of ranks, does not matter: of two fits that
-  /// differ by round-off the first is taken.
+  /// lower end, independent of the round-off in the misfits, which depends on
+  /// the number of ranks: of two fits that differ by round-off the first is
+  /// taken.
   template <int dim>
   double
   Merger<dim>::merge_along(const unsigned int   axis,
                            Points<dim>         &points,
                            const BoxRule        rule,
-                           const Cell<dim>     &cell,
+                           const double         cell_size,
                            const Splitter<dim> &splitter)
   {
-    if (members_.size() < 2)
-      return 0;
-    // If a neighbour is smaller, take half the size of the cell: its points may
-    // enter the smaller cell in the next step.
-    const double   cell_size = cell.size * (cell.uniform ? 1. : 0.5);
-    Tensor<1, dim> onwards;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double *x = points.data(points.position, d);
-        const auto [first, last] =
-          std::minmax_element(members_.begin(),
-                              members_.end(),
-                              [x](const unsigned int p, const unsigned int q) {
-                                return x[p] < x[q];
-                              });
-        const double middle = 0.5 * (x[*first] + x[*last]) - cell.lower[d];
-        onwards[d]          = (middle > (0.5 + 1e-9) * cell.size ? -1. : 1.);
-      }
-    const auto is_before = [&](const unsigned int p, const unsigned int q) {
-      for (unsigned int k = 0; k < dim; ++k)
+    const auto is_lower = [&](const unsigned int p, const unsigned int q) {
+      for (unsigned int d = 0; d < dim; ++d)
         {
-          const unsigned int d = (axis + k) % dim;
-          const double      *x = points.data(points.position, d);
+          const double *x = points.data(points.position, (axis + d) % dim);
           if (x[p] != x[q])
-            return onwards[d] * (x[q] - x[p]) > 0;
+            return x[p] < x[q];
         }
       return p < q;
     };
-    std::sort(members_.begin(), members_.end(), is_before);
+    std::sort(members_.begin(), members_.end(), is_lower);
     double loss = 0;
     for (std::size_t i = 0; i < members_.size();)
       {
@@ -182,6 +162,8 @@ namespace talus
 
 
 
+  // If a neighbour is smaller, take half the size of the cell: its points may
+  // enter the smaller cell in the next step.
   template <int dim>
   double
   Merger<dim>::merge(Points<dim>               &points,
@@ -197,13 +179,14 @@ namespace talus
         if (is_kept_ && is_kept_(segment))
           continue;
         const Cell<dim> &cell = grid.cells()[segment.cell];
+        const double     size = cell.size * (cell.uniform ? 1. : 0.5);
         members_.clear();
         for (unsigned int p = segment.begin; p < segment.end; ++p)
           if (merge_ == "all" || points.data(points.generation)[p] > 0)
             members_.push_back(p);
         double of_segment = 0;
         for (unsigned int d = 0; d < dim; ++d)
-          of_segment += merge_along(d, points, rule, cell, splitter);
+          of_segment += merge_along(d, points, rule, size, splitter);
         loss += of_segment *
                 (added_mass.empty() ? 1. : 1. + added_mass[segment.body]);
       }

@@ -164,6 +164,7 @@ namespace talus
   /// Add the part of @p box within all limits. The simplices of the box are
   /// clipped by one limit after another, each linear on the remaining parts.
   /// Edges between planes are exact, unlike for the maximum of the distances.
+  /// The mean over the tilings around all diagonals of the box is symmetric.
   template <int dim>
   void
   Region<dim>::add_clipped(const Box<dim>          &box,
@@ -171,36 +172,56 @@ namespace talus
                            const DistancesOfLimits &distances,
                            Sum                     &sum)
   {
-    // Otherwise round-off would cut off slivers at a surface on a face of the
-    // lattice.
-    const double tolerance = 1e-6 * sum.tolerance;
-    for (const Simplex<dim> &simplex : simplices_of(box, sum.origin))
+    constexpr unsigned int n_diagonals = 1u << (dim - 1);
+    for (unsigned int v = 0; v < n_diagonals; ++v)
       {
-        std::vector<Simplex<dim>> parts{simplex};
-        for (std::size_t i = 0; i < limits.size(); ++i)
-          {
-            std::vector<Simplex<dim>> clipped;
-            for (const Simplex<dim> &part : parts)
-              {
-                std::array<double, dim + 1> values;
-                for (unsigned int v = 0; v <= dim; ++v)
-                  {
-                    const unsigned int corner = corner_at(box, part[v]);
-                    if (corner < distances[i].at_corners.size())
-                      values[v] = distances[i].at_corners[corner];
-                    else
-                      values[v] = limits[i].signed_distance(part[v]);
-                    if (std::abs(values[v]) < tolerance)
-                      values[v] = 0.;
-                  }
-                const auto left = clip_simplex<dim>(part, values).parts;
-                clipped.insert(clipped.end(), left.begin(), left.end());
-              }
-            parts = std::move(clipped);
-          }
-        for (const Simplex<dim> &part : parts)
-          sum.add(part);
+        Point<dim> begin = box.lower;
+        for (unsigned int d = 0; d < dim; ++d)
+          if ((v >> d) & 1)
+            begin[d] = box.upper[d];
+        for (const Simplex<dim> &simplex : simplices_of(box, begin))
+          for (const Simplex<dim> &part :
+               clip(simplex, box, limits, distances, 1e-6 * sum.tolerance))
+            sum.add(part, 1. / n_diagonals);
       }
+  }
+
+
+
+  /// Return the parts of a simplex of @p box within all limits. Distances below
+  /// @p tolerance, m, count as zero: otherwise round-off would cut off slivers
+  /// at a surface on a face of the lattice.
+  template <int dim>
+  std::vector<Simplex<dim>>
+  Region<dim>::clip(const Simplex<dim>      &simplex,
+                    const Box<dim>          &box,
+                    const Limits            &limits,
+                    const DistancesOfLimits &distances,
+                    const double             tolerance)
+  {
+    std::vector<Simplex<dim>> parts{simplex};
+    for (std::size_t i = 0; i < limits.size(); ++i)
+      {
+        std::vector<Simplex<dim>> clipped;
+        for (const Simplex<dim> &part : parts)
+          {
+            std::array<double, dim + 1> values;
+            for (unsigned int v = 0; v <= dim; ++v)
+              {
+                const unsigned int corner = corner_at(box, part[v]);
+                if (corner < distances[i].at_corners.size())
+                  values[v] = distances[i].at_corners[corner];
+                else
+                  values[v] = limits[i].signed_distance(part[v]);
+                if (std::abs(values[v]) < tolerance)
+                  values[v] = 0.;
+              }
+            const auto left = clip_simplex<dim>(part, values).parts;
+            clipped.insert(clipped.end(), left.begin(), left.end());
+          }
+        parts = std::move(clipped);
+      }
+    return parts;
   }
 
 
@@ -252,9 +273,9 @@ namespace talus
   /// The mean of the squares over a simplex follows from the corners.
   template <int dim>
   void
-  Region<dim>::Sum::add(const Simplex<dim> &simplex)
+  Region<dim>::Sum::add(const Simplex<dim> &simplex, const double weight)
   {
-    const double part = talus::volume<dim>(simplex);
+    const double part = weight * talus::volume<dim>(simplex);
     volume += part;
     for (unsigned int d = 0; d < dim; ++d)
       {

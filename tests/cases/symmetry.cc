@@ -49,27 +49,45 @@ namespace symmetry_test
 
 
 
-  // About 800 steps, 400 of them in contact, with splits and merges.
+  // About 800 steps, 400 of them in contact, with splits. Rows of points are
+  // merged from the lower end, so a slide with merging has no exact mirror
+  // image: a row of its own.
   TEST(Symmetry, MirroredSlide)
   {
-    Verification gates("Slide over a ridge and its mirror image",
+    Verification    gates("Slide over a ridge and its mirror image",
                        "tests/cases/slide-over-ridge.prm",
                        "symmetry");
-    const Table  right = obstacles_of<2>("slide-over-ridge.prm"),
-                left   = obstacles_of<2>(
-                  "slide-over-ridge.prm",
-                  {"Gravity/Slope angle=-8",
-                     "Bodies/slide/Vertices=0,0; -14,0; -11,3.1; -3,3.1",
-                     "Obstacles/ridge/Vertices=-19.3,-1; -27.7,-1; -24.1,1.3; "
-                       "-23.2,1.37"});
-    const auto at_most = [&](const std::string &column, const double sign) {
-      gates.at_most("difference of the " + column + ", over the largest",
+    const Overrides mirrored = {
+      "Gravity/Slope angle=-8",
+      "Bodies/slide/Vertices=0,0; -14,0; -11,3.1; -3,3.1",
+      "Obstacles/ridge/Vertices=-19.3,-1; -27.7,-1; -24.1,1.3; -23.2,1.37"};
+    const auto pair = [&](const Overrides &settings) {
+      return std::make_pair(obstacles_of<2>("slide-over-ridge.prm", settings),
+                            obstacles_of<2>("slide-over-ridge.prm",
+                                            settings + mirrored));
+    };
+    const auto [right, left] = pair({"Splitting/Merge=false"});
+    for (const auto &[column, sign] :
+         {std::make_pair("ridge force x [N]", -1.),
+          std::make_pair("ridge force y [N]", 1.),
+          std::make_pair("ridge contact area [m]", 1.)})
+      gates.at_most("difference of the " + std::string(column) +
+                      ", over the largest",
                     difference(right, column, left, column, sign),
                     1e-9);
-    };
-    at_most("ridge force x [N]", -1);
-    at_most("ridge force y [N]", 1);
-    at_most("ridge contact area [m]", 1);
+    const auto [merged, merged_left] = pair({});
+    gates.falls_short("difference of the ridge force x [N], over the largest, "
+                      "with merging",
+                      difference(merged,
+                                 "ridge force x [N]",
+                                 merged_left,
+                                 "ridge force x [N]",
+                                 -1.),
+                      1e-9,
+                      {0.5,
+                       "rows of points are merged from the lower end; merged "
+                       "from the end nearest to a face of the cell, "
+                       "slab-failure.prm tears"});
   }
 
 

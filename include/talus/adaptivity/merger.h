@@ -130,7 +130,7 @@ namespace talus
     merge_along(unsigned int         axis,
                 Points<dim>         &points,
                 BoxRule              rule,
-                const Cell<dim>     &cell,
+                double               cell_size,
                 const Splitter<dim> &splitter);
     double
     merge_pair(Points<dim>          &points,

@@ -104,7 +104,7 @@ namespace talus
     struct Sum
     {
       void
-      add(const Simplex<dim> &simplex);
+      add(const Simplex<dim> &simplex, double weight);
       void
       add(const Box<dim> &box);
 
@@ -127,6 +127,12 @@ namespace talus
                 const Limits            &limits,
                 const DistancesOfLimits &distances,
                 Sum                     &sum);
+    static std::vector<Simplex<dim>>
+    clip(const Simplex<dim>      &simplex,
+         const Box<dim>          &box,
+         const Limits            &limits,
+         const DistancesOfLimits &distances,
+         double                   tolerance);
     static void
     add_part(const Box<dim> &box, Limits limits, unsigned int depth, Sum &sum);
 
