@@ -122,7 +122,11 @@ namespace talus
   void
   BedSlip<dim>::list_state(const std::string &name, StateList &list)
   {
-    table_.list_state(name, list);
+    table_.list_state(
+      name,
+      list,
+      []() { return true; },
+      [this](const std::vector<double> &rows) { restore(rows); });
   }
 
 

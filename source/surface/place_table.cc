@@ -134,7 +134,8 @@ namespace talus
   void
   PackedPlaceTable::list_state(const std::string           &name,
                                StateList                   &list,
-                               const std::function<bool()> &is_needed)
+                               const std::function<bool()> &is_needed,
+                               const Restore               &restore)
   {
     list.add_table(
       {name,
@@ -143,6 +144,8 @@ namespace talus
        [this, is_needed]() {
          return is_needed() ? rows() : std::vector<double>();
        },
-       [this](const std::vector<double> &rows) { restore(rows); }});
+       restore
+         ? restore
+         : [this](const std::vector<double> &rows) { this->restore(rows); }});
   }
 } // namespace talus

@@ -197,7 +197,7 @@ namespace talus
     take_restored(const State<dim> &state);
     void
     warm_start(const State<dim> &state);
-    double
+    void
     sweep(const State<dim> &state);
     void
     add_impulse(unsigned int facet, const dealii::Tensor<1, dim> &impulse);

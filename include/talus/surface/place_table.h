@@ -88,13 +88,17 @@ namespace talus
       return is_waiting_;
     }
 
+    using Restore = std::function<void(const std::vector<double> &rows)>;
+
     /// Add the table @p name to the state. Without @p is_needed the table is
-    /// empty.
+    /// empty. The owner of a table with more than the rows gives a function
+    /// @p restore that calls restore() and adds the rest.
     void
     list_state(
       const std::string           &name,
       StateList                   &list,
-      const std::function<bool()> &is_needed = []() { return true; });
+      const std::function<bool()> &is_needed = []() { return true; },
+      const Restore               &restore   = {});
 
   protected:
     /// @param columns names and units of the columns of rows()
