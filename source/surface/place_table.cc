@@ -7,8 +7,9 @@ namespace talus
 {
   using namespace dealii;
 
-  // Of two rows of a place the first counts: ranks that restored a checkpoint
-  // have the same rows.
+  /// Add @p rows of the rank @p rank to @p index. Several ranks may have a row
+  /// of the same place after a checkpoint was read, since every rank reads all
+  /// rows; the row of the first rank is kept.
   void
   PackedPlaceTable::add(const std::vector<double> &rows,
                         const unsigned int         rank,
