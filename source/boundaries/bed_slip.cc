@@ -69,27 +69,31 @@ namespace talus
 
 
   template <int dim>
-  double
-  BedSlip<dim>::slipped_area() const
+  std::vector<double>
+  BedSlip<dim>::slipped_areas(const unsigned int n_beds,
+                              const MPI_Comm     communicator) const
   {
-    double area = 0;
-    for_each([&area](const BedPlace<dim> &place) {
-      area += (place.slip > 0 ? place.area : 0.);
+    std::vector<double> areas(n_beds, 0.);
+    for_each([&areas](const BedPlace<dim> &place) {
+      areas[place.bed()] += (place.slip > 0 ? place.area : 0.);
     });
-    return area;
+    Utilities::MPI::sum(areas, communicator, areas);
+    return areas;
   }
 
 
 
   template <int dim>
-  double
-  BedSlip<dim>::largest_slip() const
+  std::vector<double>
+  BedSlip<dim>::largest_slips(const unsigned int n_beds,
+                              const MPI_Comm     communicator) const
   {
-    double slip = 0;
-    for_each([&slip](const BedPlace<dim> &place) {
-      slip = std::max(slip, place.slip);
+    std::vector<double> slips(n_beds, 0.);
+    for_each([&slips](const BedPlace<dim> &place) {
+      slips[place.bed()] = std::max(slips[place.bed()], place.slip);
     });
-    return slip;
+    Utilities::MPI::max(slips, communicator, slips);
+    return slips;
   }
 
 
@@ -131,26 +135,6 @@ namespace talus
 
 
 
-  template <int dim>
-  void
-  append_slip(const std::string  &surfaces,
-              const BedSlip<dim> &slip,
-              const MPI_Comm      communicator,
-              Quantities         &list)
-  {
-    list.push_back({"slipped " + surfaces,
-                    dim == 2 ? "m" : "m^2",
-                    Utilities::MPI::sum(slip.slipped_area(), communicator)});
-    list.push_back({"largest slip of " + surfaces,
-                    "m",
-                    Utilities::MPI::max(slip.largest_slip(), communicator)});
-  }
-
-
-
   template class BedSlip<2>;
   template class BedSlip<3>;
-
-  template decltype(append_slip<2>) append_slip<2>;
-  template decltype(append_slip<3>) append_slip<3>;
 } // namespace talus

@@ -31,7 +31,7 @@ namespace talus
     struct ConditionKind
     {
       std::string name; ///< in the parameter file
-      /// Null if faces of this kind do nothing to the nodes.
+      /// Null if Boundaries does nothing to the nodes of such faces.
       ConditionPtr<dim> (*make)(const FaceDescription<dim> &);
     };
 
@@ -40,8 +40,7 @@ namespace talus
     /// All kinds of conditions, in the order of action at a node: later
     /// conditions override earlier ones. Velocities come first. Rollers follow,
     /// since nothing may pass a wall, whatever another face prescribes. `fixed`
-    /// then holds all components (doc/method.md, section 5). The seabed is
-    /// last: components held by a wall must not use up the friction.
+    /// then holds all components (doc/method.md, section 5).
     template <int dim>
     const std::vector<ConditionKind<dim>> &
     condition_kinds()
@@ -54,7 +53,7 @@ namespace talus
         {"velocity", make<VelocityCondition<dim>, dim>},
         {"roller", make<RollerCondition<dim>, dim>},
         {"fixed", make<FixedCondition<dim>, dim>},
-        {"seabed", make<SeabedCondition<dim>, dim>}};
+        {"seabed", nullptr}};
       return list;
     }
 
@@ -92,14 +91,13 @@ namespace talus
   Boundaries<dim>::prepare(const Grid<dim> &grid)
   {
     places_.clear();
-    if (reactions_.is_enabled() || is_seabed(bottom_face) ||
+    if (reactions_.is_enabled() || has_seabed() ||
         std::any_of(conditions_.begin(),
                     conditions_.end(),
                     [](const auto &condition) {
                       return condition->depends_on_place();
                     }))
       places_ = places_of_owned_nodes(grid);
-    seabed_.prepare_nodes(grid, seabed_faces(), places_);
   }
 
 
@@ -140,10 +138,8 @@ namespace talus
   unsigned char
   Boundaries<dim>::constrained_components(const unsigned char faces) const
   {
-    for (const auto &condition : conditions_)
-      if (condition->is_one_sided() && condition->acts_on(faces))
-        return (1u << dim) - 1;
-    return components_constrained_by_walls(faces);
+    return (faces & seabed_faces()) ? (1u << dim) - 1
+                                    : components_constrained_by_walls(faces);
   }
 
 
@@ -174,27 +170,31 @@ namespace talus
 
 
 
-  /// Record for each constraint the part of the impulse along the normal of the
-  /// constraint.
+  /// Record the impulse of walls on a node, for each constraint the part along
+  /// its normal.
   template <int dim>
   void
-  Boundaries<dim>::add_wall_reactions(
-    const VelocityConstraints<dim> &constraints,
-    const NodalFields<dim>         &nodes,
-    const unsigned int              node,
-    const Tensor<1, dim>           &impulse)
+  Boundaries<dim>::record_walls(const VelocityConstraints<dim> &constraints,
+                                const NodalFields<dim>         &nodes,
+                                const unsigned int              node,
+                                const Tensor<1, dim>           &impulse,
+                                BoundaryWork<dim>              &work)
   {
+    const Tensor<1, dim> v = nodes.mean_velocity(node);
+    work.contact -= impulse * v;
+    work.wall_impulse += impulse;
     if (reactions_.is_enabled())
       for (const VelocityConstraint<dim> &constraint : constraints)
-        reactions_.add(constraint.owner,
-                       place_of(node),
+        reactions_.in_step(conditions_[constraint.owner]->face())
+          .add_contact(place_of(node),
                        (impulse * constraint.normal) * constraint.normal,
                        Tensor<1, dim>(),
-                       nodes.mean_velocity(node));
+                       v);
   }
 
 
 
+  // The owner of a constraint does not depend on the time.
   template <int dim>
   void
   Boundaries<dim>::record_walls(const NodalFields<dim> &nodes,
@@ -203,10 +203,7 @@ namespace talus
                                 const Tensor<1, dim>   &impulse,
                                 BoundaryWork<dim>      &work)
   {
-    work.contact -= impulse * nodes.mean_velocity(node);
-    work.wall_impulse += impulse;
-    // The owner of a constraint does not depend on the time.
-    add_wall_reactions(constraints_at(faces, node, 0.), nodes, node, impulse);
+    record_walls(constraints_at(faces, node, 0.), nodes, node, impulse, work);
   }
 
 
@@ -220,9 +217,10 @@ namespace talus
                                 const double        dt,
                                 BoundaryWork<dim>  &work)
   {
-    const Tensor<1, dim> impulse =
-      constraints_at(faces, node, t + 0.5 * dt).impose(nodes, node);
-    record_walls(nodes, faces, node, impulse, work);
+    const auto constraints = constraints_at(faces, node, t + 0.5 * dt);
+    if (constraints.begin() != constraints.end())
+      record_walls(
+        constraints, nodes, node, constraints.impose(nodes, node), work);
   }
 
 
@@ -280,67 +278,6 @@ namespace talus
 
 
 
-  /// Apply all conditions to the velocity of a node and record impulses and
-  /// works. The work of an impulse is the product with the mean velocity of the
-  /// step, after the last change. Only these works balance the change of
-  /// kinetic energy: a work recorded when the impulse acts would use a velocity
-  /// that the next condition changes.
-  template <int dim>
-  void
-  Boundaries<dim>::apply_to_node(NodalFields<dim>  &nodes,
-                                 const Grid<dim>   &grid,
-                                 const unsigned int node,
-                                 const double       t,
-                                 const double       dt,
-                                 BoundaryWork<dim> &work)
-  {
-    const unsigned char faces = grid.faces_of_node(node);
-    using Impulses            = std::pair<Tensor<1, dim>, Tensor<1, dim>>;
-    std::array<Impulses, 2 * dim> of_condition;
-
-    // Walls before the seabed: components held by a wall must not use up the
-    // friction.
-    const VelocityConstraints<dim> constraints =
-      constraints_at(faces, node, t + 0.5 * dt);
-    Tensor<1, dim> wall = constraints.impose(nodes, node);
-    Tensor<1, dim> contact, friction;
-    for (unsigned int c = 0; c < conditions_.size(); ++c)
-      if (BoundaryCondition<dim> &condition = *conditions_[c];
-          condition.is_one_sided() && condition.acts_on(faces))
-        {
-          const double gap =
-            (seabed_.has_gap() ? gap_(condition.face(), node) : 0.);
-          of_condition[c] = condition.apply_contact(nodes, grid, node, dt, gap);
-          contact += of_condition[c].first;
-          friction += of_condition[c].second;
-          if (condition.face() == bottom_face)
-            bed_friction_.emplace_back(place_of(node),
-                                       of_condition[c].second / dt);
-        }
-    // Friction does not brake components driven by a wall: the wall bears the
-    // impulse.
-    wall += constraints.impose(nodes, node);
-
-    const Tensor<1, dim> v = nodes.mean_velocity(node);
-    work.friction -= friction * v;
-    work.contact -= (contact + wall) * v;
-    work.seabed_impulse += contact + friction;
-    work.wall_impulse += wall;
-    add_wall_reactions(constraints, nodes, node, wall);
-    if (reactions_.is_enabled())
-      for (unsigned int c = 0; c < conditions_.size(); ++c)
-        if (const auto &[normal, tangential] = of_condition[c];
-            normal.norm_square() + tangential.norm_square() > 0)
-          {
-            reactions_.add(c, place_of(node), normal, tangential, v);
-            reactions_.add_area(
-              c,
-              seabed_.contact_area(nodes, grid, conditions_[c]->face(), node));
-          }
-  }
-
-
-
   // With the lumped mass no node depends on the neighbours: the order of the
   // nodes matters only for round-off in the sums.
   template <int dim>
@@ -352,12 +289,9 @@ namespace talus
                          const double      mass_cutoff)
   {
     BoundaryWork<dim> work;
-    bed_friction_.clear();
-    if (has_seabed())
-      seabed_.begin_step(grid.communicator());
     for (const unsigned int node : nodes.active_boundary_nodes())
       if (nodes.mass(node) > mass_cutoff)
-        apply_to_node(nodes, grid, node, t, dt, work);
+        impose_walls(nodes, grid.faces_of_node(node), node, t, dt, work);
     for (const LoadedNode &loaded : loaded_)
       {
         const Tensor<1, dim> impulse = dt * loaded.force;
@@ -365,11 +299,8 @@ namespace talus
         work.contact -= impulse * v;
         work.wall_impulse += impulse;
         if (reactions_.is_enabled())
-          reactions_.add(loaded.condition,
-                         place_of(loaded.node),
-                         impulse,
-                         Tensor<1, dim>(),
-                         v);
+          reactions_.in_step(conditions_[loaded.condition]->face())
+            .add_contact(place_of(loaded.node), impulse, Tensor<1, dim>(), v);
       }
     return work;
   }
@@ -515,11 +446,8 @@ namespace talus
     for (const ConditionKind<dim> &kind : condition_kinds<dim>())
       for (unsigned int face = 0; face < 2 * dim; ++face)
         if (kind.make != nullptr && names_[face] == kind.name)
-          conditions_.push_back(kind.make({face,
-                                           velocity_texts_[face],
-                                           traction_texts_[face],
-                                           constants,
-                                           seabed_}));
+          conditions_.push_back(kind.make(
+            {face, velocity_texts_[face], traction_texts_[face], constants}));
   }
 
 
@@ -533,27 +461,19 @@ namespace talus
     for (unsigned int face = 0; face < 2 * dim; ++face)
       check_expressions(face);
     seabed_.prepare(constants);
-    AssertThrow(has_seabed() || !seabed_.bed().softens(),
+    AssertThrow(has_seabed() || !seabed_.softens(),
                 ExcUser("'Boundaries/Seabed/Slip to remould' is given, but no "
                         "face of the mesh is a seabed. Give the entry in the "
                         "section of an obstacle, set 'seabed' at a face, or "
                         "remove the entry."));
     make_conditions(constants);
-    std::vector<std::string> names;
+    std::vector<unsigned int> faces;
     for (const auto &condition : conditions_)
-      names.push_back(face_names[condition->face()]);
-    reactions_.prepare(names, writes_forces_);
-  }
-
-
-
-  template <int dim>
-  void
-  Boundaries<dim>::list_quantities(const State<dim> &state,
-                                   Quantities       &list) const
-  {
-    if (seabed_.bed().softens())
-      append_slip("seabed", seabed_.slip(), state.communicator(), list);
+      faces.push_back(condition->face());
+    for (unsigned int face = 0; face < 2 * dim; ++face)
+      if (is_seabed(face))
+        faces.push_back(face);
+    reactions_.prepare(faces, writes_forces_);
   }
 
 
@@ -563,8 +483,6 @@ namespace talus
   Boundaries<dim>::list_state(StateList &list)
   {
     reactions_.list_state(list);
-    if (has_seabed())
-      seabed_.list_state(list);
   }
 
 

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/boundaries/boundary_reactions.h>
+#include <talus/grid/mesh_layout.h>
 
 namespace talus
 {
+  using namespace dealii;
+
   template <int dim>
   void
-  BoundaryReactions<dim>::prepare(const std::vector<std::string> &names,
-                                  const bool                      is_enabled)
+  BoundaryReactions<dim>::prepare(const std::vector<unsigned int> &faces,
+                                  const bool                       is_enabled)
   {
     is_enabled_ = is_enabled;
-    names_      = names;
-    steps_.assign(names.size(), {});
-    reactions_.assign(is_enabled ? names.size() : 0, {});
+    faces_      = faces;
+    steps_.fill({});
+    reactions_.assign(is_enabled ? faces.size() : 0, {});
   }
 
 
@@ -22,8 +25,20 @@ namespace talus
   {
     if (!is_enabled_)
       return;
-    add_to_reactions(steps_, communicator, reactions_);
-    steps_.assign(names_.size(), {});
+    std::vector<StepReaction<dim>> steps;
+    for (const unsigned int face : faces_)
+      steps.push_back(steps_[face]);
+    add_to_reactions(steps, communicator, reactions_);
+    steps_.fill({});
+  }
+
+
+
+  template <int dim>
+  const std::string &
+  BoundaryReactions<dim>::name(const unsigned int k) const
+  {
+    return face_names[faces_[k]];
   }
 
 
@@ -33,7 +48,7 @@ namespace talus
   BoundaryReactions<dim>::list_state(StateList &list)
   {
     for (unsigned int k = 0; k < reactions_.size(); ++k)
-      reactions_[k].list_state("face " + names_[k], list);
+      reactions_[k].list_state("face " + name(k), list);
   }
 
 

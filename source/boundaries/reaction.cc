@@ -14,13 +14,8 @@ namespace talus
   Reaction<dim>::add(const StepReaction<dim> &step)
   {
     last = step;
-    total.impulse += step.impulse;
-    total.tangential += step.tangential;
+    total += step;
     total.area = step.area;
-    total.friction_work += step.friction_work;
-    total.contact_work += step.contact_work;
-    for (unsigned int i = 0; i < step.angular_impulse.size(); ++i)
-      total.angular_impulse[i] += step.angular_impulse[i];
   }
 
 

@@ -91,7 +91,7 @@ namespace talus
     const auto           impulse =
       projected_impulse(constraints_,
                         c,
-                        facet,
+                        facet.normal,
                         impulses_[c],
                         constraints_.velocity(c) -
                           obstacle.velocity_at(facet.centroid,

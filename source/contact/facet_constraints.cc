@@ -17,6 +17,29 @@ namespace talus
   {
     constraints_.clear();
     loaded_.clear();
+    loaded_nodes_.clear();
+  }
+
+
+
+  // Facets of moving obstacles may have changed since the last step, and so the
+  // numbers of all places.
+  template <int dim>
+  void
+  FacetConstraints<dim>::begin_step()
+  {
+    const unsigned int n = place_of_node(face_nodes_.size());
+    if (obstacles_.move() || constraints_.size() != n)
+      constraints_.assign(n, {});
+    else
+      {
+        for (const unsigned int c : loaded_)
+          constraints_[c] = {};
+        for (const unsigned int i : loaded_nodes_)
+          constraints_[place_of_node(i)] = {};
+      }
+    loaded_.clear();
+    loaded_nodes_.clear();
   }
 
 
@@ -25,11 +48,7 @@ namespace talus
   void
   FacetConstraints<dim>::find(const State<dim> &state, const bool has_memory)
   {
-    for (const unsigned int c : loaded_)
-      constraints_[c] = {};
-    loaded_.clear();
-    constraints_.resize(facets_.owned().size());
-    for (unsigned int c = 0; c < constraints_.size(); ++c)
+    for (unsigned int c = 0; c < facets_.owned().size(); ++c)
       {
         const ContactFacet<dim> &facet      = facets_.owned()[c];
         FacetConstraint<dim>    &constraint = constraints_[c];
@@ -42,6 +61,31 @@ namespace talus
         if (has_memory)
           constraint.averaging_weight =
             averaging_weight(state, facet, constraint);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  FacetConstraints<dim>::find_at_node(const State<dim>  &state,
+                                      const unsigned int i,
+                                      const bool         has_memory)
+  {
+    const FaceNode<dim>  &at         = face_nodes_[i];
+    FacetConstraint<dim> &constraint = constraints_[place_of_node(i)];
+    loaded_nodes_.push_back(i);
+    constraint.is_loaded = true;
+    constraint.share[0]  = 1.;
+    constraint.mass = constraint.normal_mass = state.nodes.mass(at.node);
+    constraint.gap                           = soil_.gap(at);
+    constraint.area = soil_.area_in_contact(state.nodes, at);
+    if (has_memory)
+      {
+        Tensor<1, dim> slip = state.time_step * state.nodes.velocity(at.node);
+        slip[at.face / 2]   = 0;
+        constraint.averaging_weight =
+          InterfaceFriction::averaging_weight(slip.norm(), at.cell_size());
       }
   }
 
@@ -160,43 +204,45 @@ namespace talus
 
   template <int dim>
   CoulombLimit
-  FacetConstraints<dim>::limit(const unsigned int facet) const
+  FacetConstraints<dim>::limit(const unsigned int place) const
   {
-    const ContactFacet<dim> &at = facets_.owned()[facet];
-    return obstacles_[at.obstacle].bed().limit(at.maximum_shear_stress,
-                                               constraints_[facet].area,
-                                               slip_.places().empty()
-                                                 ? SurfaceState()
-                                                 : slip_.state(facet));
+    const auto        &facets = facets_.owned();
+    const unsigned int n      = facets.size();
+    return bed(place).limit(place < n
+                              ? facets[place].maximum_shear_stress
+                              : face_nodes_.maximum_shear_stress(place - n),
+                            constraints_[place].area,
+                            slip_.places().empty() ? SurfaceState()
+                                                   : slip_.state(place));
   }
 
 
 
   template <int dim>
   double
-  FacetConstraints<dim>::friction_limit(const unsigned int facet,
+  FacetConstraints<dim>::friction_limit(const unsigned int place,
                                         const double       normal_impulse,
                                         const double       dt) const
   {
-    return dt * limit(facet).force(normal_impulse / dt);
+    return dt * limit(place).force(normal_impulse / dt);
   }
 
 
 
+  // A film acts only where the surface bears soil.
   template <int dim>
   double
-  FacetConstraints<dim>::friction_impulse(const unsigned int facet,
+  FacetConstraints<dim>::friction_impulse(const unsigned int place,
                                           const double       trial,
                                           const double       normal_impulse,
                                           const double       dt) const
   {
-    const FacetConstraint<dim> &constraint = constraints_[facet];
-    return obstacles_[facets_.owned()[facet].obstacle].bed().impulse(
-      trial,
-      constraint.mass,
-      friction_limit(facet, normal_impulse, dt) / dt,
-      constraint.area,
-      dt);
+    const FacetConstraint<dim> &constraint = constraints_[place];
+    return bed(place).impulse(trial,
+                              constraint.mass,
+                              limit(place).force(normal_impulse / dt),
+                              normal_impulse > 0 ? constraint.area : 0.,
+                              dt);
   }
 
 

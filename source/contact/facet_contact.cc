@@ -6,6 +6,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace talus
 {
@@ -31,12 +32,7 @@ namespace talus
     : obstacles_(obstacles)
     , boundaries_(boundaries)
     , reactions_(obstacles.size())
-  {
-    boundaries_.set_covered_area(
-      [this](const unsigned int face, const unsigned int node) {
-        return soil_.at_faces().area(face, node);
-      });
-  }
+  {}
 
 
 
@@ -44,40 +40,58 @@ namespace talus
   void
   FacetContact<dim>::prepare(const Grid<dim> &grid)
   {
-    if (obstacles_.empty())
-      return soil_.prepare(grid, boundaries_.seabed_faces());
-    obstacles_.locate(); // a checkpoint may have restored their places
-    facets_.prepare(grid, obstacles_);
-    impulses_.move_to(keys_of(facets_.owned()), grid.communicator());
+    if (!obstacles_.empty())
+      {
+        obstacles_.locate(); // a checkpoint may have restored their places
+        facets_.prepare(grid, obstacles_);
+        nodes_.prepare(grid);
+      }
+    face_nodes_.prepare(grid);
+    impulses_.move_to(keys(), grid.communicator());
     if (keeps_slip())
-      slip_.prepare(places_of_facets(), grid.communicator());
-    nodes_.prepare(grid);
-    soil_.prepare(grid, boundaries_.seabed_faces());
+      slip_.prepare(places(), grid.communicator());
+    soil_.prepare(grid,
+                  boundaries_.seabed_faces(),
+                  boundaries_.seabed().has_gap());
     constraints_.prepare();
   }
 
 
 
   template <int dim>
-  std::vector<BedPlace<dim>>
-  FacetContact<dim>::places_of_facets() const
+  std::vector<PlaceKey>
+  FacetContact<dim>::keys() const
   {
-    std::vector<BedPlace<dim>> result;
-    for (const ContactFacet<dim> &facet : facets_.owned())
-      result.push_back({key_of(facet), facet.centroid, facet.area});
+    std::vector<PlaceKey> result = keys_of(facets_.owned());
+    for (const FaceNode<dim> &at : face_nodes_.all())
+      result.push_back(at.key);
     return result;
   }
 
 
 
-  /// Give impulses and slip to the present facets of this rank.
+  template <int dim>
+  std::vector<BedPlace<dim>>
+  FacetContact<dim>::places() const
+  {
+    std::vector<BedPlace<dim>> result;
+    for (const ContactFacet<dim> &facet : facets_.owned())
+      result.push_back({key_of(facet), facet.centroid, facet.area});
+    for (const FaceNode<dim> &at : face_nodes_.all())
+      result.push_back({at.key, at.x, at.area});
+    return result;
+  }
+
+
+
+  /// Give impulses and slip to the present places of this rank.
   template <int dim>
   void
   FacetContact<dim>::update_places()
   {
-    impulses_.update(keys_of(facets_.owned()));
+    impulses_.update(keys());
     if (keeps_slip())
-      slip_.update(places_of_facets());
+      slip_.update(places());
   }
 
 
@@ -118,13 +132,11 @@ namespace talus
   // no facet can change a component held by a wall.
   template <int dim>
   void
-  FacetContact<dim>::correct_velocities(State<dim> &state)
+  FacetContact<dim>::find_impulses_of_facets(State<dim> &state)
   {
-    if (obstacles_.empty())
-      return;
-    slip_.begin_step(state.communicator());
     nodes_.hold_walls(state, boundaries_);
-    find_constraints(state);
+    nodes_.load(state);
+    constraints_.find(state, has_begun_);
     bodies_.begin_step(state);
     warm_start(state);
     const unsigned int n_sweeps = (!has_begun_         ? n_first_sweeps
@@ -133,14 +145,33 @@ namespace talus
     for (unsigned int s = 0; s < n_sweeps; ++s)
       sweep(state);
     for (const unsigned int c : constraints_.loaded())
-      impulses_[c].mean_normal =
-        mean_normal(impulses_[c], constraints_[c], impulses_[c].normal);
+      {
+        FacetImpulse<dim> &impulse = impulses_[c];
+        impulse.mean_normal =
+          mean_normal(impulse, constraints_[c], impulse.normal);
+        impulse.area = impulse.mean_normal > 0 ? constraints_[c].area : 0.;
+      }
     if (obstacles_.soften())
       add_slip(state);
-    has_begun_          = true;
-    previous_time_step_ = state.time_step;
     nodes_.write(state);
     hold_nodes_inside(state);
+  }
+
+
+
+  // Seabeds come last: the projection at their nodes is exact, so that no soil
+  // leaves the mesh whatever the obstacles do.
+  template <int dim>
+  void
+  FacetContact<dim>::correct_velocities(State<dim> &state)
+  {
+    slip_.begin_step(state.communicator());
+    constraints_.begin_step();
+    if (!obstacles_.empty())
+      find_impulses_of_facets(state);
+    find_impulses_of_nodes(state);
+    has_begun_          = true;
+    previous_time_step_ = state.time_step;
   }
 
 
@@ -149,8 +180,97 @@ namespace talus
   void
   FacetContact<dim>::find_constraints(const State<dim> &state)
   {
-    nodes_.load(state);
-    constraints_.find(state, /*has_memory=*/has_begun_);
+    constraints_.begin_step();
+    if (!obstacles_.empty())
+      {
+        nodes_.load(state);
+        constraints_.find(state, has_begun_);
+      }
+    for (unsigned int i = 0; i < face_nodes_.size(); ++i)
+      if (state.nodes.mass(face_nodes_[i].node) > state.constants.mass_cutoff)
+        constraints_.find_at_node(state, i, has_begun_);
+  }
+
+
+
+  // A node with several seabed faces meets one after the other. Places without
+  // soil in this step forget their impulse.
+  template <int dim>
+  void
+  FacetContact<dim>::find_impulses_of_nodes(State<dim> &state)
+  {
+    if (face_nodes_.size() == 0)
+      return;
+    BoundaryWork<dim> of_walls;
+    const double      longer =
+      (previous_time_step_ > 0 ? state.time_step / previous_time_step_ : 1.);
+    for (const unsigned int node : state.nodes.active_boundary_nodes())
+      if (state.nodes.mass(node) > state.constants.mass_cutoff)
+        face_nodes_.for_each_at(node, [&](const unsigned int i) {
+          // Components held by a wall must not use up the friction.
+          if (face_nodes_[i].walls != 0)
+            boundaries_.impose_walls(state.nodes,
+                                     state.grid.faces_of_node(node),
+                                     node,
+                                     state.time,
+                                     state.time_step,
+                                     of_walls);
+          project_at_node(state, i, longer);
+        });
+    of_walls.record(state.accounts);
+    for (unsigned int i = 0; i < face_nodes_.size(); ++i)
+      if (const unsigned int c = constraints_.place_of_node(i);
+          !constraints_[c].is_loaded)
+        impulses_[c] = {};
+  }
+
+
+
+  // The trial velocity is the velocity after the momentum update and the
+  // obstacles. The impact along the normal is plastic: the impulse stops the
+  // node. Friction can at most stop the node, never drive the node back; at
+  // rest friction bears the load, and no penalty stiffness limits the step.
+  // Nothing pulls: soil can lift off.
+  //
+  // A shaking node would have no friction in every step in which the node moves
+  // away, and a body at rest would creep: so friction follows the mean normal
+  // force, also in these steps.
+  /// Apply the contact at entry @p i of face_nodes(). @p longer: time step over
+  /// the previous one [-].
+  template <int dim>
+  void
+  FacetContact<dim>::project_at_node(State<dim>        &state,
+                                     const unsigned int i,
+                                     const double       longer)
+  {
+    const FaceNode<dim> &at      = face_nodes_[i];
+    const Tensor<1, dim> normal  = at.normal();
+    const Tensor<1, dim> u       = state.nodes.velocity(at.node);
+    const double         dt      = state.time_step;
+    const unsigned int   c       = constraints_.place_of_node(i);
+    FacetImpulse<dim>   &impulse = impulses_[c];
+    if (const double gap = soil_.gap(at); gap > 0 && u * normal >= -gap / dt)
+      return;
+    constraints_.find_at_node(state, i, impulse.effective_mass > 0);
+    const FacetConstraint<dim> &constraint = constraints_[c];
+    impulse = {0., {}, constraint.mass, longer * impulse.mean_normal, 0.};
+    const auto projected =
+      projected_impulse(constraints_, c, normal, impulse, u, dt);
+    impulse.mean_normal = mean_normal(impulse, constraint, projected.normal);
+    impulse.normal      = projected.normal;
+    impulse.tangential  = projected.tangential;
+    impulse.area        = impulse.mean_normal > 0 ? constraint.area : 0.;
+    state.nodes.set_velocity(at.node,
+                             u +
+                               (impulse.normal * normal + impulse.tangential) /
+                                 constraint.mass);
+    // Soil without friction remoulds nothing.
+    if (projected.sticking < 1 && constraints_.bed(c).softens() &&
+        constraints_.limit(c).force(impulse.mean_normal) > 0)
+      {
+        const Tensor<1, dim> slip = dt * (u - (u * normal) * normal);
+        slip_.add(c, (1. - projected.sticking) * slip.norm());
+      }
   }
 
 
@@ -161,8 +281,8 @@ namespace talus
   void
   FacetContact<dim>::set_forces(const std::vector<FacetImpulse<dim>> &forces)
   {
-    TalusAssert(forces.size() == impulses_.size(),
-                ExcDimensionMismatch(forces.size(), impulses_.size()));
+    TalusAssert(forces.size() == facets_.owned().size(),
+                ExcDimensionMismatch(forces.size(), facets_.owned().size()));
     std::copy(forces.begin(), forces.end(), impulses_.begin());
     previous_time_step_ = 1.;
     has_begun_          = true;
@@ -279,7 +399,7 @@ namespace talus
         const auto projected =
           projected_impulse(constraints_,
                             c,
-                            facet,
+                            facet.normal,
                             impulse,
                             constraints_.velocity(c) - of_obstacle,
                             dt);
@@ -326,13 +446,12 @@ namespace talus
 
 
 
-  /// Add the impulses and works of the facets of this rank to @p steps, one
-  /// entry per obstacle.
+  /// Return impulses and works of this rank, one entry per obstacle.
   template <int dim>
-  void
-  FacetContact<dim>::record_facets(const State<dim>               &state,
-                                   std::vector<StepReaction<dim>> &steps) const
+  std::vector<StepReaction<dim>>
+  FacetContact<dim>::reactions_of_obstacles(const State<dim> &state) const
   {
+    std::vector<StepReaction<dim>> steps(obstacles_.size());
     for (const unsigned int c : constraints_.loaded())
       {
         const FacetImpulse<dim> &impulse = impulses_[c];
@@ -344,24 +463,51 @@ namespace talus
         Tensor<1, dim>              v;
         for (unsigned int i = 0; i < facet.node.size(); ++i)
           v += constraint.share[i] * state.nodes.mean_velocity(facet.node[i]);
-        const Tensor<1, dim> normal = impulse.normal * facet.normal;
-        step.add_impulse_on_soil(facet.centroid -
-                                   obstacles_[facet.obstacle].reference_point(),
-                                 normal + impulse.tangential);
-        step.tangential -= impulse.tangential;
+        step.add_contact(facet.centroid -
+                           obstacles_[facet.obstacle].reference_point(),
+                         impulse.normal * facet.normal,
+                         impulse.tangential,
+                         v);
         step.area += constraint.area;
-        step.friction_work -= impulse.tangential * v;
-        step.contact_work -= normal * v;
       }
     for (const ImpulseInside &inside : impulses_inside_)
+      steps[inside.obstacle].add_contact(
+        inside.place - obstacles_[inside.obstacle].reference_point(),
+        inside.impulse,
+        Tensor<1, dim>(),
+        state.nodes.mean_velocity(inside.node));
+    return steps;
+  }
+
+
+
+  /// Record impulses and works at the nodes of seabed faces.
+  template <int dim>
+  void
+  FacetContact<dim>::record_nodes(State<dim> &state)
+  {
+    StepReaction<dim> of_all;
+    auto             &reactions = boundaries_.reactions();
+    for (const unsigned int i : constraints_.loaded_nodes())
       {
-        StepReaction<dim> &step = steps[inside.obstacle];
-        step.add_impulse_on_soil(
-          inside.place - obstacles_[inside.obstacle].reference_point(),
-          inside.impulse);
-        step.contact_work -=
-          inside.impulse * state.nodes.mean_velocity(inside.node);
+        const FaceNode<dim>     &at      = face_nodes_[i];
+        const unsigned int       c       = constraints_.place_of_node(i);
+        const FacetImpulse<dim> &impulse = impulses_[c];
+        if (!impulse.acts())
+          continue;
+        StepReaction<dim> step;
+        step.add_contact(at.x,
+                         impulse.normal * at.normal(),
+                         impulse.tangential,
+                         state.nodes.mean_velocity(at.node));
+        step.area = constraints_[c].area;
+        of_all += step;
+        if (reactions.is_enabled())
+          reactions.in_step(at.face) += step;
       }
+    state.accounts.energy("friction work") += of_all.friction_work;
+    state.accounts.energy("contact work") += of_all.contact_work;
+    state.accounts.impulse("seabed impulse") -= of_all.impulse;
   }
 
 
@@ -373,11 +519,11 @@ namespace talus
   void
   FacetContact<dim>::record(State<dim> &state)
   {
+    record_nodes(state);
     if (obstacles_.empty())
       return;
     nodes_.record_walls(state, boundaries_);
-    std::vector<StepReaction<dim>> steps(obstacles_.size());
-    record_facets(state, steps);
+    std::vector<StepReaction<dim>> steps = reactions_of_obstacles(state);
     for (const StepReaction<dim> &step : steps)
       {
         state.accounts.energy("friction work") += step.friction_work;
@@ -394,8 +540,25 @@ namespace talus
   FacetContact<dim>::list_quantities(const State<dim> &state,
                                      Quantities       &list) const
   {
-    if (obstacles_.soften())
-      append_slip("obstacles", slip_, state.communicator(), list);
+    const bool on_seabed    = boundaries_.seabed().softens();
+    const bool on_obstacles = obstacles_.soften();
+    if (!on_seabed && !on_obstacles)
+      return;
+    const unsigned int n      = 1 + obstacles_.size();
+    const auto         areas  = slip_.slipped_areas(n, state.communicator());
+    const auto         slips  = slip_.largest_slips(n, state.communicator());
+    const auto         append = [&list](const std::string &surfaces,
+                                const double       area,
+                                const double       slip) {
+      list.push_back({"slipped " + surfaces, dim == 2 ? "m" : "m^2", area});
+      list.push_back({"largest slip of " + surfaces, "m", slip});
+    };
+    if (on_seabed)
+      append("seabed", areas[0], slips[0]);
+    if (on_obstacles)
+      append("obstacles",
+             std::accumulate(areas.begin() + 1, areas.end(), 0.),
+             *std::max_element(slips.begin() + 1, slips.end()));
   }
 
 
@@ -404,8 +567,6 @@ namespace talus
   void
   FacetContact<dim>::list_state(StateList &list)
   {
-    if (obstacles_.empty())
-      return;
     list.add("contact has begun", "-", has_begun_, Reduction::equal);
     list.add("time step of the contact",
              "s",
@@ -413,9 +574,9 @@ namespace talus
              Reduction::equal);
     for (unsigned int k = 0; k < obstacles_.size(); ++k)
       reactions_[k].list_state("obstacle " + obstacles_[k].name(), list);
-    impulses_.list_state("facet impulses", list);
-    if (obstacles_.soften())
-      slip_.list_state("slip of obstacles", list);
+    impulses_.list_state("impulses of contact", list);
+    if (boundaries_.seabed().softens() || obstacles_.soften())
+      slip_.list_state("slip of beds", list);
   }
 
 

@@ -9,9 +9,12 @@ namespace talus
 
   template <int dim>
   void
-  SoilAtPlaces<dim>::prepare(const Grid<dim> &grid, const unsigned char faces)
+  SoilAtPlaces<dim>::prepare(const Grid<dim>    &grid,
+                             const unsigned char faces,
+                             const bool          have_gap)
   {
     at_faces_.prepare(grid, faces);
+    face_gaps_.prepare(grid, have_gap ? faces : 0);
     if (obstacles_.empty())
       return;
     prepare_gaps(grid, slots(grid));
@@ -28,6 +31,7 @@ namespace talus
   SoilAtPlaces<dim>::find(const State<dim> &state)
   {
     at_faces_.find(state);
+    face_gaps_.find(state);
     if (obstacles_.empty())
       return;
     find_gaps(state);

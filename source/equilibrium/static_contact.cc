@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/equilibrium/static_contact.h>
-#include <talus/grid/node_places.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -20,33 +19,27 @@ namespace talus
                             const Unknowns<dim>      &unknowns,
                             const double              modulus)
   {
+    problem.contact.find_constraints(problem.state);
     facets_.begin(problem, unknowns, modulus);
-    const auto                      &active = unknowns.active_nodes();
-    const std::vector<unsigned long> keys =
-      keys_of_owned_nodes(problem.state.grid);
+    const auto           &nodes       = problem.contact.face_nodes();
+    const auto           &constraints = problem.contact.constraints();
+    const auto           &active      = unknowns.active_nodes();
     std::vector<PlaceKey> places;
     std::vector<Contact>  contacts;
     for (unsigned int k = 0; k < active.size(); ++k)
-      for (unsigned int face = 0; face < 2 * dim; ++face)
-        if (const unsigned char faces =
-              problem.state.grid.faces_of_node(active[k]);
-            (faces & (1u << face)) && problem.boundaries.is_seabed(face))
-          {
-            Contact contact;
-            contact.node = active[k];
-            contact.k    = k;
-            contact.face = face;
-            contact.walls =
-              problem.boundaries.components_constrained_by_walls(faces);
-            // Same area as in the dynamics: both must find the same friction.
-            contact.area = problem.boundaries.seabed().contact_area(
-              problem.state.nodes, problem.state.grid, face, contact.node);
-            contact.limit = problem.boundaries.seabed().limit(face,
-                                                              contact.node,
-                                                              contact.area);
-            contacts.push_back(contact);
-            places.push_back(place_key(keys[contact.node], face));
-          }
+      nodes.for_each_at(active[k], [&](const unsigned int i) {
+        Contact contact;
+        contact.node  = active[k];
+        contact.k     = k;
+        contact.face  = nodes[i].face;
+        contact.place = constraints.place_of_node(i);
+        contact.walls = nodes[i].walls;
+        // Same area as in the dynamics: both must find the same friction.
+        contact.area  = constraints[contact.place].area;
+        contact.limit = constraints.limit(contact.place);
+        contacts.push_back(contact);
+        places.push_back(nodes[i].key);
+      });
     contacts_.update(std::move(places));
     for (unsigned int i = 0; i < contacts.size(); ++i)
       {
@@ -184,12 +177,10 @@ namespace talus
                              const StrainMeasure        measure)
   {
     set_slip(u);
-    Seabed<dim> &seabed = problem.boundaries.seabed();
     for (Contact &contact : contacts_)
       if (contact.slip > 0)
         {
-          seabed.slip().add(seabed.place_of(contact.face, contact.node),
-                            contact.slip);
+          problem.contact.slip().add(contact.place, contact.slip);
           contact.friction = contact.friction_after_slip();
           contact.slip     = 0;
         }

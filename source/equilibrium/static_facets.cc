@@ -43,7 +43,6 @@ namespace talus
                       problem.contact.obstacles()[k].bed().coefficient() == 0;
     if (problem.contact.obstacles().empty())
       return;
-    problem.contact.find_constraints(problem.state);
     n_facets_                     = problem.contact.facets().owned().size();
     std::vector<PlaceKey> places  = keys_of(problem.contact.facets().owned());
     const auto            of_node = keys_of_owned_nodes(problem.state.grid);

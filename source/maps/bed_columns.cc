@@ -41,27 +41,17 @@ namespace talus
                        const Problem<dim>     &problem,
                        const PlanColumns<dim> &columns)
   {
-    const Seabed<dim>    &seabed    = problem.boundaries.seabed();
-    const BedSlip<dim>   &facets    = problem.contact.slip();
-    const Obstacles<dim> &obstacles = problem.obstacles;
-    const double          h         = state.grid.finest_size();
-    const unsigned int    n =
-      (seabed.keeps_slip() || obstacles.soften() || facets.has_region()
-         ? columns.size()
-         : 0);
+    const double       h = state.grid.finest_size();
+    const unsigned int n = (problem.contact.keeps_slip() ? columns.size() : 0);
     for (auto *sums : {&area_, &slip_, &share_})
       sums->assign(n, 0.);
     if (n == 0)
       return;
-    seabed.slip().for_each([&](const BedPlace<dim> &place) {
-      if (place.key[2] == bottom_face)
-        add(place, seabed.bed().share_left(place.state()), h, columns);
-    });
-    const Ground<dim> ground(state.grid.domain(), &obstacles);
-    facets.for_each([&](const BedPlace<dim> &place) {
-      const unsigned int k = place.key[2];
-      if (ground.contains(k))
-        add(place, obstacles[k].bed().share_left(place.state()), h, columns);
+    const Ground<dim> ground(state.grid.domain(), &problem.obstacles);
+    problem.contact.slip().for_each([&](const BedPlace<dim> &place) {
+      const unsigned int bed = place.bed();
+      if (bed == 0 ? place.key[3] == bottom_face : ground.contains(bed - 1))
+        add(place, problem.beds()[bed]->share_left(place.state()), h, columns);
     });
     for (auto *sums : {&area_, &slip_, &share_})
       Utilities::MPI::sum(*sums, state.communicator(), *sums);

@@ -12,8 +12,8 @@ namespace talus
   {
     /// Add the forces of the last step along the bed, N, acting on the soil:
     /// from the facets of obstacles belonging to the ground, and from the
-    /// bottom face of the mesh if it is a seabed (see
-    /// Boundaries::bed_friction()). The force of a facet is distributed over
+    /// bottom face of the mesh if it is a seabed. The force of a facet is
+    /// distributed over
     /// the plan area of the cell, and the force of a node over half a cell to
     /// each side: on a steep bed, the force lost where a facet ends comes back
     /// from the cell below or above.
@@ -21,16 +21,18 @@ namespace talus
     void
     add_bed_shear(const State<dim>        &state,
                   const FacetContact<dim> &contact,
-                  const Boundaries<dim>   &boundaries,
                   ColumnSums<dim>         &sums)
     {
-      if (const double dt = contact.previous_time_step();
-          dt > 0 && !contact.obstacles().empty())
+      const double dt = contact.previous_time_step();
+      if (dt == 0)
+        return;
+      const auto &facets   = contact.facets().owned();
+      const auto &impulses = contact.impulses();
+      if (!contact.obstacles().empty())
         {
           const Ground<dim> ground(state.grid.domain(), &contact.obstacles());
-          const auto       &facets = contact.facets().owned();
-          for (unsigned int c = 0; c < contact.impulses().size(); ++c)
-            if (const auto &impulse = contact.impulses()[c].tangential;
+          for (unsigned int c = 0; c < facets.size(); ++c)
+            if (const auto &impulse = impulses[c].tangential;
                 impulse.norm_square() > 0 &&
                 ground.contains(facets[c].obstacle))
               sums.add_bed_force(impulse / dt,
@@ -38,15 +40,20 @@ namespace talus
         }
       const double   h      = state.grid.finest_size();
       const Box<dim> domain = state.grid.domain();
-      for (const auto &[x, force] : boundaries.bed_friction())
+      for (unsigned int i = 0; i < contact.face_nodes().size(); ++i)
         {
-          Box<dim> box{x, x};
+          const FaceNode<dim> &at      = contact.face_nodes()[i];
+          const auto          &impulse = impulses[facets.size() + i].tangential;
+          if (at.face != bottom_face || impulse.norm_square() == 0)
+            continue;
+          const Point<dim> &x = at.x;
+          Box<dim>          box{x, x};
           for (unsigned int d = 0; d < dim; ++d)
             {
               box.lower[d] = std::max(x[d] - 0.5 * h, domain.lower[d]);
               box.upper[d] = std::min(x[d] + 0.5 * h, domain.upper[d]);
             }
-          sums.add_bed_force(force, box);
+          sums.add_bed_force(impulse / dt, box);
         }
     }
   } // namespace
@@ -84,7 +91,7 @@ namespace talus
     last_sample_    = state.step;
     path_at_sample_ = state.max_path;
     sums_->sum_soil(state, impact().is_used() ? &problem_.materials : nullptr);
-    add_bed_shear(state, problem_.contact, problem_.boundaries, *sums_);
+    add_bed_shear(state, problem_.contact, *sums_);
     sums_->sum_over_ranks(state.communicator());
     if (is_first_rank(state.communicator()))
       envelope_->add(*sums_, state.time);

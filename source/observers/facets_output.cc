@@ -117,7 +117,7 @@ namespace talus
                     std::vector<Field>      &fields)
     {
       const BedSlip<dim> &slip = contact.slip();
-      if (slip.places().empty())
+      if (!contact.obstacles().soften() && !slip.has_region())
         return;
       fields.push_back(
         scalar_field("slip of the bed", "m", [&slip](const unsigned int c) {
@@ -210,13 +210,12 @@ namespace talus
                   facet_fields(contact_, state),
                   ItemsAt::cells,
                   dim == 2 ? CellShape::line : CellShape::quad);
-    for (unsigned int c = 0; c < contact_.constraints().all().size(); ++c)
-      if (contact_.constraints()[c].is_loaded)
-        {
-          const ContactFacet<dim> &facet = contact_.facets().owned()[c];
-          add_cell(cells, state.grid.cells()[facet.cell], facet);
-          cells.items.push_back(c);
-        }
+    for (const unsigned int c : contact_.constraints().loaded())
+      {
+        const ContactFacet<dim> &facet = contact_.facets().owned()[c];
+        add_cell(cells, state.grid.cells()[facet.cell], facet);
+        cells.items.push_back(c);
+      }
     this->series_.write(cells);
   }
 

@@ -190,16 +190,19 @@ namespace talus
     template <int dim>
     double
     contact_area(const State<dim>        &state,
-                 const Boundaries<dim>   &boundaries,
                  const FacetContact<dim> &contact,
                  const Ground<dim>       &ground)
     {
-      double area = boundaries.seabed().area_in_contact();
-      for (const unsigned int f : contact.constraints().loaded())
-        if (const ContactFacet<dim> &facet = contact.facets().owned()[f];
-            contact.impulses()[f].acts() && ground.contains(facet.obstacle) &&
-            facet.normal[1] >= Ground<dim>::min_vertical)
-          area += contact.constraints()[f].area;
+      const auto &facets   = contact.facets().owned();
+      const auto &impulses = contact.impulses();
+      double      area     = 0;
+      for (unsigned int c = 0; c < facets.size(); ++c)
+        if (ground.contains(facets[c].obstacle) &&
+            facets[c].normal[1] >= Ground<dim>::min_vertical)
+          area += impulses[c].area;
+      for (unsigned int i = 0; i < contact.face_nodes().size(); ++i)
+        if (contact.face_nodes()[i].face == bottom_face)
+          area += impulses[facets.size() + i].area;
       return Utilities::MPI::sum(area, state.communicator());
     }
   } // namespace
@@ -220,7 +223,7 @@ namespace talus
         const Ground<dim> ground(state.grid.domain(),
                                  has_obstacles ? &contact.obstacles()
                                                : nullptr);
-        in_contact = contact_area(state, boundaries, contact, ground);
+        in_contact = contact_area(state, contact, ground);
         under_soil = footprint(state, ground);
       }
     const std::string unit = (dim == 2 ? "m" : "m^2");

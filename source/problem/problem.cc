@@ -2,7 +2,6 @@
 #include <talus/base/errors.h>
 #include <talus/contact/obstacle_remarks.h>
 #include <talus/contact/obstacle_sizes.h>
-#include <talus/contact/seabed_gaps.h>
 #include <talus/problem/bottom_of_mesh.h>
 #include <talus/problem/geostatic.h>
 #include <talus/problem/layer_ends.h>
@@ -36,16 +35,15 @@ namespace talus
     , damping(interactions.template add<Damping<dim>>(boundaries,
                                                       contact.feels_obstacle()))
     , water(interactions.template add<Water<dim>>(materials, contact))
-    , hydroplaning(interactions.template add<Hydroplaning<dim>>(materials,
-                                                                water,
-                                                                boundaries))
+    , hydroplaning(interactions.template add<Hydroplaning<dim>>(
+        materials, water, boundaries, contact))
   {
-    interactions.template add<SeabedGaps<dim>>(boundaries);
-    beds_.push_back(&boundaries.seabed().bed());
+    beds_.push_back(&boundaries.seabed());
     for (unsigned int k = 0; k < obstacles.size(); ++k)
       beds_.push_back(&obstacles[k].bed());
-    interactions.template add<SurfaceWeakening<dim>>(
-      trigger, beds_, boundaries.seabed().slip());
+    interactions.template add<SurfaceWeakening<dim>>(trigger,
+                                                     beds_,
+                                                     contact.slip());
   }
 
 
@@ -75,9 +73,7 @@ namespace talus
                           trigger.changes_strength() || changes_strength);
     trigger.add_columns(points);
     loading.prepare(materials, bodies_.size(), inputs_.constants, end_time);
-    const BedRegion<dim> region = trigger.seabed_region(inputs_.constants);
-    boundaries.seabed().slip().set_region(region);
-    contact.set_region(region);
+    contact.slip().set_region(trigger.seabed_region(inputs_.constants));
     boundaries.parse(inputs_.constants);
     hydroplaning.check();
     obstacles.prepare(inputs_.constants, &inputs_.surfaces);
@@ -146,9 +142,7 @@ namespace talus
       send_points_to_owners(points, state.grid);
     trigger.choose_points(points, inputs_.constants, state.communicator());
     trigger.check_seabed_region(
-      Utilities::MPI::sum(boundaries.seabed().slip().n_triggered() +
-                            contact.slip().n_triggered(),
-                          state.communicator()));
+      Utilities::MPI::sum(contact.slip().n_triggered(), state.communicator()));
   }
 
 

@@ -56,7 +56,6 @@ namespace talus
   StaticSolver<dim>::begin_stage()
   {
     equilibrium_.forget_well_balanced_load();
-    problem_.boundaries.seabed().slip().begin_step(state_.communicator());
     problem_.contact.slip().begin_step(state_.communicator());
     if (is_first_rank(state_.communicator()))
       n_table_bytes_ = table_.length();
@@ -252,10 +251,9 @@ namespace talus
     for (unsigned int i = 0; i < points.n_arrays(); ++i)
       saved.columns.emplace_back(points.data(i),
                                  points.data(i) + points.size());
-    saved.contact       = equilibrium_.contact();
-    saved.facet_forces  = problem_.contact.save();
-    saved.seabed_slip   = problem_.boundaries.seabed().slip().rows();
-    saved.obstacle_slip = problem_.contact.slip().rows();
+    saved.contact      = equilibrium_.contact();
+    saved.facet_forces = problem_.contact.save();
+    saved.slip         = problem_.contact.slip().rows();
     return saved;
   }
 
@@ -273,8 +271,7 @@ namespace talus
                 points.data(i));
     equilibrium_.contact() = saved.contact;
     problem_.contact.restore(saved.facet_forces);
-    problem_.boundaries.seabed().slip().restore(saved.seabed_slip);
-    problem_.contact.slip().restore(saved.obstacle_slip);
+    problem_.contact.slip().restore(saved.slip);
   }
 
 

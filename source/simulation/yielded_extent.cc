@@ -128,16 +128,12 @@ namespace talus
     slipped_surfaces(const State<dim> &state, const Problem<dim> &problem)
     {
       const Obstacles<dim>    &obstacles = problem.obstacles;
-      std::vector<double>      areas(1 + obstacles.size(), 0.);
       std::vector<std::string> names{"the seabed"};
-      areas[0] = problem.boundaries.seabed().slip().slipped_area();
-      problem.contact.slip().for_each([&areas](const BedPlace<dim> &place) {
-        if (place.slip > 0)
-          areas[1 + place.key[2]] += place.area;
-      });
       for (unsigned int k = 0; k < obstacles.size(); ++k)
         names.push_back("the obstacle '" + obstacles[k].name() + "'");
-      Utilities::MPI::sum(areas, state.communicator(), areas);
+      const std::vector<double> areas =
+        problem.contact.slip().slipped_areas(names.size(),
+                                             state.communicator());
       std::string list;
       for (unsigned int i = 0; i < areas.size(); ++i)
         if (areas[i] > 0.)

@@ -35,13 +35,15 @@ namespace talus
 
 
   template <int dim>
-  Hydroplaning<dim>::Hydroplaning(const Materials<dim> &materials,
-                                  const Water<dim>     &water,
-                                  Boundaries<dim>      &boundaries)
+  Hydroplaning<dim>::Hydroplaning(const Materials<dim>  &materials,
+                                  const Water<dim>      &water,
+                                  const Boundaries<dim> &boundaries,
+                                  FacetContact<dim>     &contact)
     : ParameterAcceptor("/Boundaries/Seabed/Hydroplaning")
     , materials_(materials)
     , water_(water)
     , boundaries_(boundaries)
+    , contact_(contact)
   {
     add_parameter(
       "Factor",
@@ -129,10 +131,9 @@ namespace talus
       if (grid.faces_of_node(node) & (1u << bottom_face))
         nodes_.push_back(node);
     acts_.assign(grid.n_owned_nodes(), 0);
-    boundaries_.seabed().set_share_left(
-      [this](const unsigned int face, const unsigned int node) {
-        return face == bottom_face && acts_[node] ? factor_ : 1.;
-      });
+    contact_.set_share_left([this](const FaceNode<dim> &at) {
+      return at.face == bottom_face && acts_[at.node] ? factor_ : 1.;
+    });
   }
 
 

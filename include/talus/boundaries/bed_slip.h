@@ -2,7 +2,6 @@
 #ifndef talus_boundaries_bed_slip_h
 #define talus_boundaries_bed_slip_h
 
-#include <talus/base/quantity.h>
 #include <talus/boundaries/interface_friction.h>
 #include <talus/surface/place_table.h>
 
@@ -26,6 +25,13 @@ namespace talus
     double             slip = 0;     ///< slip so far, m
     bool is_triggered       = false; ///< whether in the region of the trigger
 
+    /// Number of the surface in Problem::beds().
+    unsigned int
+    bed() const
+    {
+      return key[2];
+    }
+
     SurfaceState
     state() const
     {
@@ -35,8 +41,9 @@ namespace talus
     // Row of a PlaceTable
     static constexpr unsigned int n_keys = 4;
     static constexpr const char  *columns =
-      "key of the node or cell: upper and lower 32 bits; face or obstacle; "
-      "number of the facet in its cell; place [m]; area [m or m^2]; slip [m]";
+      "key of the node or cell: upper and lower 32 bits; 0 for the seabed or 1 "
+      "+ obstacle; face of the mesh or number of the facet in its cell; place "
+      "[m]; area [m or m^2]; slip [m]";
 
     bool
     is_kept() const
@@ -59,8 +66,8 @@ namespace talus
 
 
 
-  /// Slip of soil over the places of a bed: nodes of a seabed, or facets of
-  /// obstacles. The slip belongs to the place. It survives changes of the mesh
+  /// Slip of soil over the places of all beds: facets of obstacles and nodes of
+  /// a seabed. The slip belongs to the place. It survives changes of the mesh
   /// and its partition, places without soil or without a node, and checkpoints.
   template <int dim>
   class BedSlip
@@ -130,13 +137,14 @@ namespace talus
       });
     }
 
-    /// Area of the places of this rank with slip, m^(dim-1).
-    double
-    slipped_area() const;
+    /// Area of the places with slip, m^(dim-1), for each of @p n_beds beds.
+    /// Collective.
+    std::vector<double>
+    slipped_areas(unsigned int n_beds, MPI_Comm communicator) const;
 
-    /// Largest slip of this rank, m.
-    double
-    largest_slip() const;
+    /// Largest slip, m, for each of @p n_beds beds. Collective.
+    std::vector<double>
+    largest_slips(unsigned int n_beds, MPI_Comm communicator) const;
 
     /// Number of places of this rank in the region of the trigger.
     unsigned int
@@ -164,17 +172,6 @@ namespace talus
     BedRegion<dim>            region_;
     PlaceTable<BedPlace<dim>> table_{/*outlives_places=*/true};
   };
-
-
-
-  /// Append slipped area, m^(dim-1), and largest slip, m, of all ranks over
-  /// @p surfaces. Collective.
-  template <int dim>
-  void
-  append_slip(const std::string  &surfaces,
-              const BedSlip<dim> &slip,
-              MPI_Comm            communicator,
-              Quantities         &list);
 } // namespace talus
 
 #endif

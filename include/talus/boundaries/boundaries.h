@@ -11,32 +11,26 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace talus
 {
-  /// Energy and impulses exchanged between boundaries and soil in one step.
+  /// Energy and impulse exchanged between walls and soil in one step.
   template <int dim>
   struct BoundaryWork
   {
-    double friction = 0; ///< energy taken by friction on seabeds, J
-    /// Energy taken by normal contact, walls and tractions, J; negative where
-    /// the boundaries drive the soil.
+    /// Energy taken by walls and tractions, J; negative where the boundaries
+    /// drive the soil.
     double                 contact = 0;
-    dealii::Tensor<1, dim> seabed_impulse; ///< on the soil, N s
-    dealii::Tensor<1, dim> wall_impulse;   ///< by walls and tractions, N s
+    dealii::Tensor<1, dim> wall_impulse; ///< on the soil, N s
 
     /// Add to the accounts opened by Boundaries::open_accounts().
     void
     record(Accounts<dim> &accounts) const
     {
-      accounts.energy("friction work") += friction;
       accounts.energy("contact work") += contact;
-      accounts.impulse("seabed impulse") += seabed_impulse;
       accounts.impulse("wall impulse") += wall_impulse;
     }
   };
@@ -50,8 +44,8 @@ namespace talus
   /// with `velocity` prescribe a component, the face normal to the component
   /// decides, otherwise the first face. Rollers then hold their normal
   /// components, because nothing may pass a wall, and `fixed` holds all
-  /// components. The seabed acts last and changes only components that no wall
-  /// prescribes.
+  /// components. The contact with a seabed belongs to FacetContact, which
+  /// changes only components that no wall prescribes.
   ///
   /// A new condition is a class derived from BoundaryCondition and a line in
   /// the list of source/boundaries/boundaries.cc.
@@ -70,8 +64,8 @@ namespace talus
     void
     open_accounts(Accounts<dim> &accounts) override;
 
-    /// Find the nodes of the seabed, and the positions of the nodes if a
-    /// condition or an output needs positions. Collective.
+    /// Find the positions of the nodes if a condition or an output needs
+    /// positions. Collective.
     void
     prepare(const Grid<dim> &grid) override;
 
@@ -183,6 +177,11 @@ namespace talus
                   double            t,
                   double            mass_cutoff);
 
+    /// Position of an owned node on a face of the mesh, m; undefined if nothing
+    /// needs positions, as a seabed does.
+    const dealii::Point<dim> &
+    place_of(unsigned int node) const;
+
     /// Give a node on @p faces the velocity prescribed by walls, and record the
     /// impulse.
     /// @param nodes fields of the nodes
@@ -208,25 +207,10 @@ namespace talus
                  const dealii::Tensor<1, dim> &impulse,
                  BoundaryWork<dim>            &work);
 
-    void
-    set_covered_area(const typename Seabed<dim>::CoveredArea &covered_area)
-    {
-      seabed_.set_covered_area(covered_area);
-    }
-
-    /// Clearance between the soil at a node and a seabed with a gap on @p face,
-    /// m: distance in excess of the contact distance.
-    using Gap = std::function<double(unsigned int face, unsigned int node)>;
-    void
-    set_gap(const Gap &gap)
-    {
-      gap_ = gap;
-    }
-
-    /// Apply the conditions to the velocities of the active nodes on the faces,
-    /// after the momentum update. Velocities belong to the half step, t + dt/2.
-    /// Return energies and impulses of the boundaries, including the tractions
-    /// of add_tractions().
+    /// Apply the walls to the velocities of the active nodes on the faces, after
+    /// the momentum update. Velocities belong to the half step, t + dt/2. Return
+    /// energies and impulses of the boundaries, including the tractions of
+    /// add_tractions().
     /// @param nodes fields of the nodes
     /// @param grid background grid
     /// @param t time at the beginning of the step, s
@@ -238,14 +222,6 @@ namespace talus
           double            t,
           double            dt,
           double            mass_cutoff);
-
-    /// Friction of a seabed at the bottom of the mesh in the last step, at the
-    /// nodes of this rank: position, m, and friction force on the soil, N.
-    const std::vector<std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>> &
-    bed_friction() const
-    {
-      return bed_friction_;
-    }
 
     /// Forces on each face with a condition, if the parameter `Write forces` is
     /// set.
@@ -261,11 +237,6 @@ namespace talus
       return reactions_;
     }
 
-    /// Area that soil has slipped over, and the largest slip, where a surface
-    /// softens.
-    void
-    list_quantities(const State<dim> &state, Quantities &list) const override;
-
     void
     list_state(StateList &list) override;
 
@@ -278,22 +249,14 @@ namespace talus
     check_expressions(unsigned int face) const;
     void
     make_conditions(const Constants &constants);
-    const dealii::Point<dim> &
-    place_of(unsigned int node) const;
     VelocityConstraints<dim>
     constraints_at(unsigned char faces, unsigned int node, double t);
     void
-    add_wall_reactions(const VelocityConstraints<dim> &constraints,
-                       const NodalFields<dim>         &nodes,
-                       unsigned int                    node,
-                       const dealii::Tensor<1, dim>   &impulse);
-    void
-    apply_to_node(NodalFields<dim>  &nodes,
-                  const Grid<dim>   &grid,
-                  unsigned int       node,
-                  double             t,
-                  double             dt,
-                  BoundaryWork<dim> &work);
+    record_walls(const VelocityConstraints<dim> &constraints,
+                 const NodalFields<dim>         &nodes,
+                 unsigned int                    node,
+                 const dealii::Tensor<1, dim>   &impulse,
+                 BoundaryWork<dim>              &work);
 
     // Parameters, by face
     std::array<std::string, 2 * dim> names_;
@@ -304,10 +267,7 @@ namespace talus
     Seabed<dim> seabed_;
     /// Conditions in the order in which they act.
     std::vector<std::unique_ptr<BoundaryCondition<dim>>> conditions_;
-    BoundaryReactions<dim> reactions_; ///< by condition
-    Gap                    gap_;
-    std::vector<std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>>
-      bed_friction_;
+    BoundaryReactions<dim>                               reactions_;
 
     /// Positions of the owned nodes, by node, m; empty unless needed.
     std::vector<dealii::Point<dim>> places_;

@@ -6,15 +6,9 @@
 #include <talus/boundaries/velocity_constraints.h>
 
 #include <string>
-#include <utility>
 
 namespace talus
 {
-  template <int dim>
-  class Seabed;
-
-
-
   /// Arguments of the constructor of a condition.
   template <int dim>
   struct FaceDescription
@@ -23,14 +17,13 @@ namespace talus
     const std::string &velocity; ///< expressions
     const std::string &traction; ///< expressions
     const Constants   &constants;
-    Seabed<dim>       &seabed;
   };
 
 
 
-  /// Condition on a face of the mesh. A derived class provides one or several
-  /// of: constraints on the velocity of a node, independent of the state of the
-  /// soil; a traction; one-sided contact.
+  /// Condition on a face of the mesh. A derived class provides constraints on
+  /// the velocity of a node, independent of the state of the soil, or a
+  /// traction, or both.
   template <int dim>
   class BoundaryCondition
   {
@@ -90,27 +83,6 @@ namespace talus
     /// the state of the soil.
     virtual dealii::Tensor<1, dim>
     traction(const dealii::Point<dim> & /*x*/, const double /*t*/)
-    {
-      return {};
-    }
-
-    /// Whether the soil may lift off and slide: apply_contact() is called.
-    virtual bool
-    is_one_sided() const
-    {
-      return false;
-    }
-
-    /// Change the velocity of @p node after the momentum update of a step of
-    /// @p dt, s. @p gap: clearance between soil and face at the start of the
-    /// step, m, 0 in contact. Returns the normal and the tangential impulse on
-    /// the soil, N s.
-    virtual std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>>
-    apply_contact(NodalFields<dim> & /*nodes*/,
-                  const Grid<dim> & /*grid*/,
-                  const unsigned int /*node*/,
-                  const double /*dt*/,
-                  const double /*gap*/)
     {
       return {};
     }

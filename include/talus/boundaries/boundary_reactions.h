@@ -4,8 +4,7 @@
 
 #include <talus/boundaries/reaction.h>
 
-#include <deal.II/base/point.h>
-
+#include <array>
 #include <string>
 #include <vector>
 
@@ -17,10 +16,10 @@ namespace talus
   class BoundaryReactions
   {
   public:
-    /// Prepare one reaction for each of @p names if @p is_enabled, otherwise
-    /// none.
+    /// Prepare one reaction for each of @p faces of the mesh if @p is_enabled,
+    /// otherwise none.
     void
-    prepare(const std::vector<std::string> &names, bool is_enabled);
+    prepare(const std::vector<unsigned int> &faces, bool is_enabled);
 
     bool
     is_enabled() const
@@ -28,31 +27,12 @@ namespace talus
       return is_enabled_;
     }
 
-    /// Add impulses on the soil at one place.
-    /// @param k index of the reaction
-    /// @param x position, m
-    /// @param normal impulse along the normal and by walls, N s
-    /// @param tangential impulse by friction, N s
-    /// @param v mean velocity of the soil in the step, m/s
-    void
-    add(const unsigned int            k,
-        const dealii::Point<dim>     &x,
-        const dealii::Tensor<1, dim> &normal,
-        const dealii::Tensor<1, dim> &tangential,
-        const dealii::Tensor<1, dim> &v)
+    /// Return what soil on this rank does to @p face in the current step, to be
+    /// added to.
+    StepReaction<dim> &
+    in_step(const unsigned int face)
     {
-      StepReaction<dim> &step = steps_[k];
-      step.add_impulse_on_soil(dealii::Tensor<1, dim>(x), normal + tangential);
-      step.tangential -= tangential;
-      step.friction_work -= tangential * v;
-      step.contact_work -= normal * v;
-    }
-
-    /// Add an area in contact, m^(dim-1).
-    void
-    add_area(const unsigned int k, const double area)
-    {
-      steps_[k].area += area;
+      return steps_[face];
     }
 
     /// Sum the impulses added in the step over the ranks. Collective.
@@ -69,19 +49,16 @@ namespace talus
 
     /// Name of the face of reaction @p k.
     const std::string &
-    name(const unsigned int k) const
-    {
-      return names_[k];
-    }
+    name(unsigned int k) const;
 
     void
     list_state(StateList &list);
 
   private:
-    bool                           is_enabled_ = false;
-    std::vector<std::string>       names_;
-    std::vector<StepReaction<dim>> steps_; ///< share of this rank
-    std::vector<Reaction<dim>>     reactions_;
+    bool                                   is_enabled_ = false;
+    std::vector<unsigned int>              faces_; ///< of reactions_
+    std::array<StepReaction<dim>, 2 * dim> steps_; ///< by face, of this rank
+    std::vector<Reaction<dim>>             reactions_;
   };
 } // namespace talus
 

@@ -46,6 +46,31 @@ namespace talus
         }
     }
 
+    /// Add a normal and a tangential impulse on soil that moves with the mean
+    /// velocity @p v, m/s, in the step, see add_impulse_on_soil().
+    void
+    add_contact(const dealii::Tensor<1, dim> &arm,
+                const dealii::Tensor<1, dim> &normal,
+                const dealii::Tensor<1, dim> &tangential_on_soil,
+                const dealii::Tensor<1, dim> &v)
+    {
+      add_impulse_on_soil(arm, normal + tangential_on_soil);
+      tangential -= tangential_on_soil;
+      friction_work -= tangential_on_soil * v;
+      contact_work -= normal * v;
+    }
+
+    /// Add the sums of @p other, with the same reference point.
+    void
+    operator+=(const StepReaction &other)
+    {
+      auto       sum   = as_list();
+      const auto added = other.as_list();
+      for (unsigned int i = 0; i < n_values; ++i)
+        sum[i] += added[i];
+      from_list(sum.data());
+    }
+
     /// Number of values in as_list(), for sums over the ranks.
     static constexpr unsigned int n_values = 2 * dim + n_moments + 3;
 

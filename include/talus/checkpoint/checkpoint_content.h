@@ -21,7 +21,7 @@ namespace talus
 
   /// Version of the file format. Increase when old and new versions of talus
   /// cannot read each other's files.
-  constexpr std::uint64_t checkpoint_format = 10;
+  constexpr std::uint64_t checkpoint_format = 11;
 
   /// Summary of a checkpoint: attributes of the file.
   struct CheckpointHead

@@ -4,6 +4,7 @@
 
 #include <talus/boundaries/bed_slip.h>
 #include <talus/contact/contact_nodes.h>
+#include <talus/contact/face_nodes.h>
 #include <talus/contact/facets.h>
 #include <talus/contact/soil_at_places.h>
 #include <talus/state/state.h>
@@ -12,8 +13,8 @@
 
 namespace talus
 {
-  /// Soil at a facet in the current step. A facet without soil at its nodes
-  /// keeps the default values.
+  /// Soil at a facet, or at a node of a seabed face, in the current step. A
+  /// place without soil keeps the default values.
   template <int dim>
   struct FacetConstraint
   {
@@ -30,20 +31,23 @@ namespace talus
 
 
 
-  /// Constraints of all facets in owned cells: the mean velocity of the soil at
-  /// a facet must not lead into the obstacle. Computes effective mass, gap,
-  /// area in contact and limit of friction; FacetContact computes the impulses.
+  /// Constraints of all places of contact: the facets in owned cells, followed
+  /// by FaceNodes. The mean velocity of the soil at a place must not lead into
+  /// the surface. Computes effective mass, gap, area in contact and limit of
+  /// friction; FacetContact computes the impulses.
   template <int dim>
   class FacetConstraints
   {
   public:
     FacetConstraints(const Obstacles<dim>    &obstacles,
                      const Facets<dim>       &facets,
+                     const FaceNodes<dim>    &face_nodes,
                      const ContactNodes<dim> &nodes,
                      const SoilAtPlaces<dim> &soil,
                      const BedSlip<dim>      &slip)
       : obstacles_(obstacles)
       , facets_(facets)
+      , face_nodes_(face_nodes)
       , nodes_(nodes)
       , soil_(soil)
       , slip_(slip)
@@ -54,6 +58,10 @@ namespace talus
     void
     prepare();
 
+    /// Begin a step, without soil at any place.
+    void
+    begin_step();
+
     /// Compute the constraints of Facets::owned() from ContactNodes and
     /// SoilAtPlaces. If @p has_memory, a running mean of the normal impulse
     /// limits friction, otherwise the current impulse. Throws ExcPoint if soil
@@ -61,8 +69,13 @@ namespace talus
     void
     find(const State<dim> &state, bool has_memory);
 
-    /// Return the constraints of the last find(), one per facet of
-    /// Facets::owned().
+    /// Compute the constraint of entry @p i of FaceNodes, whose node carries
+    /// soil. @p has_memory: see find().
+    void
+    find_at_node(const State<dim> &state, unsigned int i, bool has_memory);
+
+    /// Return the constraints of the step, one per facet of Facets::owned()
+    /// and one per entry of FaceNodes.
     const std::vector<FacetConstraint<dim>> &
     all() const
     {
@@ -70,9 +83,16 @@ namespace talus
     }
 
     const FacetConstraint<dim> &
-    operator[](const unsigned int facet) const
+    operator[](const unsigned int place) const
     {
-      return constraints_[facet];
+      return constraints_[place];
+    }
+
+    /// Number of the place of entry @p i of FaceNodes.
+    unsigned int
+    place_of_node(const unsigned int i) const
+    {
+      return facets_.owned().size() + i;
     }
 
     /// Indices in Facets::owned() of the facets with soil at their nodes.
@@ -89,24 +109,40 @@ namespace talus
       return velocity(facets_.owned()[facet], constraints_[facet]);
     }
 
-    /// Limit of friction of soil at rest at facet @p facet of Facets::owned().
+    /// Entries of FaceNodes with soil.
+    const std::vector<unsigned int> &
+    loaded_nodes() const
+    {
+      return loaded_nodes_;
+    }
+
+    /// Surface of a place.
+    const Bed<dim> &
+    bed(const unsigned int place) const
+    {
+      const auto &facets = facets_.owned();
+      return place < facets.size() ? obstacles_[facets[place].obstacle].bed()
+                                   : face_nodes_.bed();
+    }
+
+    /// Limit of friction of soil at rest at a place.
     CoulombLimit
-    limit(unsigned int facet) const;
+    limit(unsigned int place) const;
 
     /// Return the maximum friction impulse on soil at rest, N s.
-    /// @param facet index in Facets::owned()
+    /// @param place number of the place
     /// @param normal_impulse impulse along the normal, N s
     /// @param dt time step, s
     double
-    friction_limit(unsigned int facet, double normal_impulse, double dt) const;
+    friction_limit(unsigned int place, double normal_impulse, double dt) const;
 
     /// Return the length of the tangential impulse, N s, at most @p trial.
-    /// @param facet index in Facets::owned()
+    /// @param place number of the place
     /// @param trial tangential impulse that would stop the soil, N s
     /// @param normal_impulse impulse along the normal, N s
     /// @param dt time step, s
     double
-    friction_impulse(unsigned int facet,
+    friction_impulse(unsigned int place,
                      double       trial,
                      double       normal_impulse,
                      double       dt) const;
@@ -138,11 +174,12 @@ namespace talus
 
     const Obstacles<dim>             &obstacles_;
     const Facets<dim>                &facets_;
+    const FaceNodes<dim>             &face_nodes_;
     const ContactNodes<dim>          &nodes_;
     const SoilAtPlaces<dim>          &soil_;
-    const BedSlip<dim>               &slip_; ///< by facet; empty: not kept
+    const BedSlip<dim>               &slip_; ///< by place; empty: not kept
     std::vector<FacetConstraint<dim>> constraints_;
-    std::vector<unsigned int>         loaded_;
+    std::vector<unsigned int>         loaded_, loaded_nodes_;
   };
 } // namespace talus
 

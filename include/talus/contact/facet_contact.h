@@ -6,6 +6,7 @@
 #include <talus/boundaries/reaction.h>
 #include <talus/contact/body_coupling.h>
 #include <talus/contact/contact_nodes.h>
+#include <talus/contact/face_nodes.h>
 #include <talus/contact/facet_constraints.h>
 #include <talus/contact/facet_impulses.h>
 #include <talus/contact/facets.h>
@@ -16,21 +17,21 @@
 
 namespace talus
 {
-  /// One-sided contact with friction between soil and obstacles whose surfaces
-  /// lie anywhere in the mesh.
+  /// One-sided contact with friction between soil and surfaces: seabed faces of
+  /// the mesh, and obstacles, whose surfaces lie anywhere in the mesh.
   ///
-  /// Each facet is a constraint: the mean velocity of the soil at the contact
-  /// point must not lead into the obstacle. Jacobi's iteration with projection
-  /// computes the impulses of all facets, with one sweep per step. The
-  /// iteration starts from the impulses of the previous step, which are nearly
-  /// right where soil rests or slides. A facet acts only while the boxes of the
-  /// points are nearer than a twentieth of a cell. doc/method.md, section
-  /// "Obstacles".
+  /// Each place of a surface is a constraint: the mean velocity of the soil at
+  /// the place must not lead into the surface. A place is a facet of an
+  /// obstacle, with the nodes of a cell, or a node of a seabed face. Jacobi's
+  /// iteration with projection computes the impulses of all facets, with one
+  /// sweep per step. The iteration starts from the impulses of the previous
+  /// step, which are nearly right where soil rests or slides. The impulse of a
+  /// node of a face is exact at once. doc/method.md, section "Contact".
   template <int dim>
   class FacetContact : public NodalInteraction<dim>
   {
   public:
-    /// Walls of @p boundaries hold nodes that also touch obstacles.
+    /// @p boundaries tell which faces are a seabed and hold the nodes at walls.
     FacetContact(Obstacles<dim> &obstacles, Boundaries<dim> &boundaries);
 
     const Obstacles<dim> &
@@ -46,7 +47,7 @@ namespace talus
       bodies_.open_accounts(accounts);
     }
 
-    /// Cut the cells by the obstacles: facets and nodes in contact. A facet
+    /// Cut the cells by the obstacles: facets and nodes in contact. A place
     /// that existed before keeps the impulse. Collective.
     void
     prepare(const Grid<dim> &grid) override;
@@ -56,7 +57,7 @@ namespace talus
     void
     begin_step(State<dim> &state) override;
 
-    /// Compute the impulses of the facets and apply the impulses to the
+    /// Compute the impulses of all places and apply the impulses to the
     /// velocities of the nodes. Collective.
     void
     correct_velocities(State<dim> &state) override;
@@ -87,7 +88,23 @@ namespace talus
       return facets_;
     }
 
-    /// Return the impulses of the last step, one per facet of facets().owned().
+    /// Owned nodes of seabed faces.
+    const FaceNodes<dim> &
+    face_nodes() const
+    {
+      return face_nodes_;
+    }
+
+    /// Set a rule that leaves a share of the maximum shear stress at nodes of
+    /// seabed faces, see FaceNodes::set_share_left().
+    void
+    set_share_left(const typename FaceNodes<dim>::ShareLeft &share_left)
+    {
+      face_nodes_.set_share_left(share_left);
+    }
+
+    /// Return the impulses of the last step, one per facet of facets().owned()
+    /// and one per entry of face_nodes().
     const std::vector<FacetImpulse<dim>> &
     impulses() const
     {
@@ -102,16 +119,17 @@ namespace talus
       return previous_time_step_;
     }
 
-    /// Set the region where the trigger brings surfaces to a share of their
-    /// maximum shear stress. Call before prepare().
-    void
-    set_region(const BedRegion<dim> &region)
+    /// Whether slip() is kept: a surface softens by slip, or the trigger has a
+    /// region.
+    bool
+    keeps_slip() const
     {
-      slip_.set_region(region);
+      return boundaries_.seabed().softens() || obstacles_.soften() ||
+             slip_.has_region();
     }
 
-    /// Slip of soil over facets().owned(); without places unless an obstacle
-    /// softens by slip or the trigger has a region.
+    /// Slip of soil over the places, as in impulses(); without places unless
+    /// keeps_slip().
     BedSlip<dim> &
     slip()
     {
@@ -140,8 +158,8 @@ namespace talus
       return soil_;
     }
 
-    /// Compute the constraints of facets().owned() from soil() and the masses
-    /// at the nodes. Collective.
+    /// Compute the constraints of all places from soil() and the masses at the
+    /// nodes. Collective.
     void
     find_constraints(const State<dim> &state);
 
@@ -153,9 +171,9 @@ namespace talus
       return constraints_;
     }
 
-    /// Set the impulses from the forces of soil at rest: one impulse per facet
-    /// of facets().owned(), each for a duration of 1 s. The first step scales
-    /// the impulses to the time step.
+    /// Set the impulses of facets().owned() from the forces of soil at rest, one
+    /// impulse per facet, each for a duration of 1 s. The first step scales the
+    /// impulses to the time step.
     void
     set_forces(const std::vector<FacetImpulse<dim>> &forces);
 
@@ -182,17 +200,20 @@ namespace talus
     list_state(StateList &list) override;
 
   private:
-    bool
-    keeps_slip() const
-    {
-      return obstacles_.soften() || slip_.has_region();
-    }
+    std::vector<PlaceKey>
+    keys() const;
     std::vector<BedPlace<dim>>
-    places_of_facets() const;
+    places() const;
     void
     update_places();
     void
     add_slip(const State<dim> &state);
+    void
+    find_impulses_of_facets(State<dim> &state);
+    void
+    find_impulses_of_nodes(State<dim> &state);
+    void
+    project_at_node(State<dim> &state, unsigned int i, double longer);
     void
     take_restored(const State<dim> &state);
     void
@@ -203,9 +224,10 @@ namespace talus
     add_impulse(unsigned int facet, const dealii::Tensor<1, dim> &impulse);
     void
     hold_nodes_inside(State<dim> &state);
+    std::vector<StepReaction<dim>>
+    reactions_of_obstacles(const State<dim> &state) const;
     void
-    record_facets(const State<dim>               &state,
-                  std::vector<StepReaction<dim>> &steps) const;
+    record_nodes(State<dim> &state);
 
     /// Impulse on a node inside an obstacle that touches no facet.
     struct ImpulseInside
@@ -219,8 +241,9 @@ namespace talus
     Obstacles<dim>            &obstacles_;
     Boundaries<dim>           &boundaries_;
     Facets<dim>                facets_;
+    FaceNodes<dim>             face_nodes_{boundaries_};
     FacetImpulses<dim>         impulses_;
-    BedSlip<dim>               slip_; ///< by facet
+    BedSlip<dim>               slip_; ///< by place
     std::vector<Reaction<dim>> reactions_;
     bool                       has_begun_          = false;
     double                     previous_time_step_ = 0; ///< s
@@ -229,7 +252,7 @@ namespace talus
     SoilAtPlaces<dim>     soil_{obstacles_, facets_};
     ContactNodes<dim>     nodes_{facets_};
     FacetConstraints<dim> constraints_{
-      obstacles_, facets_, nodes_, soil_, slip_};
+      obstacles_, facets_, face_nodes_, nodes_, soil_, slip_};
     BodyCoupling<dim> bodies_{obstacles_, facets_, constraints_, impulses_};
     std::vector<ImpulseInside> impulses_inside_;
   };

@@ -2,6 +2,7 @@
 #ifndef talus_contact_facet_impulses_h
 #define talus_contact_facet_impulses_h
 
+#include <talus/contact/face_nodes.h>
 #include <talus/contact/facets.h>
 #include <talus/surface/place_table.h>
 
@@ -14,7 +15,7 @@ namespace talus
   PlaceKey
   key_of(const ContactFacet<dim> &facet)
   {
-    return place_key(facet.key, facet.obstacle, facet.number);
+    return place_key(facet.key, /*bed=*/facet.obstacle + 1, facet.number);
   }
 
 
@@ -31,7 +32,7 @@ namespace talus
 
 
 
-  /// Impulse of a facet on the soil in a step.
+  /// Impulse of a facet, or of a node of a seabed face, on the soil in a step.
   template <int dim>
   struct FacetImpulse
   {
@@ -39,6 +40,7 @@ namespace talus
     dealii::Tensor<1, dim> tangential;         ///< along the facet, N s
     double                 effective_mass = 0; ///< mass of soil, kg; 0: none
     double mean_normal = 0; ///< running mean of `normal`, limits friction, N s
+    double area        = 0; ///< where soil pressed, m^(dim-1)
 
     bool
     acts() const
@@ -49,9 +51,11 @@ namespace talus
     // Row of a PlaceTable
     static constexpr unsigned int n_keys = 4;
     static constexpr const char  *columns =
-      "key of the cell: upper and lower 32 bits; obstacle; number of the facet "
-      "in its cell; normal impulse [N s]; effective mass [kg]; mean normal "
-      "impulse [N s]; friction impulse [N s]";
+      "key of the cell or node: upper and lower 32 bits; 0 for the seabed or 1 "
+      "+ obstacle; number of the facet in its cell, or face of the mesh; "
+      "normal "
+      "impulse [N s]; effective mass [kg]; mean normal impulse [N s]; area in "
+      "contact [m or m^2]; friction impulse [N s]";
 
     bool
     is_kept() const
@@ -62,14 +66,15 @@ namespace talus
     auto
     values()
     {
-      return std::tie(normal, effective_mass, mean_normal, tangential);
+      return std::tie(normal, effective_mass, mean_normal, area, tangential);
     }
   };
 
 
 
-  /// Impulses of all facets in owned cells. An impulse survives motion of
-  /// obstacles as long as the cell has a facet of the same number.
+  /// Impulses of all facets in owned cells, followed by the impulses of
+  /// FaceNodes. An impulse survives motion of obstacles as long as the cell has
+  /// a facet of the same number.
   template <int dim>
   using FacetImpulses = PlaceTable<FacetImpulse<dim>>;
 } // namespace talus

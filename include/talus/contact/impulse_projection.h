@@ -32,7 +32,7 @@ namespace talus
 
 
 
-  /// Impulse of a facet after a sweep, on the soil.
+  /// Impulse of a place after a sweep, on the soil.
   template <int dim>
   struct ProjectedImpulse
   {
@@ -44,27 +44,28 @@ namespace talus
 
 
 
-  /// Project the impulse of facet @p c, so that the soil at the facet does not
-  /// move into the obstacle: a normal impulse only pushes, and friction is at
-  /// most the limit of the surface. A facet with a gap lets the soil approach
+  /// Project the impulse of place @p c, so that the soil at the place does not
+  /// move into the surface: a normal impulse only pushes, and friction is at
+  /// most the limit of the surface. A place with a gap lets the soil approach
   /// by the gap in this step.
-  /// @param constraints of all facets
-  /// @param facet facet @p c of Facets::owned()
-  /// @param impulse of the facet so far
-  /// @param u velocity of the soil relative to the obstacle, m/s
+  /// @param constraints of all places
+  /// @param c number of the place
+  /// @param normal unit vector out of the surface
+  /// @param impulse of the place so far
+  /// @param u velocity of the soil relative to the surface, m/s
   /// @param dt time step, s
   template <int dim>
   ProjectedImpulse<dim>
   projected_impulse(const FacetConstraints<dim>  &constraints,
                     const unsigned int            c,
-                    const ContactFacet<dim>      &facet,
+                    const dealii::Tensor<1, dim> &normal,
                     const FacetImpulse<dim>      &impulse,
                     const dealii::Tensor<1, dim> &u,
                     const double                  dt)
   {
     const FacetConstraint<dim>  &constraint = constraints[c];
-    const double                 u_n        = u * facet.normal;
-    const dealii::Tensor<1, dim> u_t        = u - u_n * facet.normal;
+    const double                 u_n        = u * normal;
+    const dealii::Tensor<1, dim> u_t        = u - u_n * normal;
     ProjectedImpulse<dim>        result;
     result.normal = std::max(0.,
                              impulse.normal - constraint.normal_mass *

@@ -4,6 +4,8 @@
 
 #include <talus/boundaries/contact_area.h>
 #include <talus/contact/face_coverage.h>
+#include <talus/contact/face_gaps.h>
+#include <talus/contact/face_nodes.h>
 #include <talus/contact/facet_coverage.h>
 #include <talus/contact/facets.h>
 #include <talus/contact/nodal_gaps.h>
@@ -28,10 +30,10 @@ namespace talus
     {}
 
     /// Call after each change of the mesh or its partition, after
-    /// Facets::prepare(). @p faces: seabeds, bit f for face f of the mesh.
-    /// Collective.
+    /// Facets::prepare(). @p faces: seabeds, bit f for face f of the mesh;
+    /// @p have_gap: whether gap() at their nodes may be positive. Collective.
     void
-    prepare(const Grid<dim> &grid, unsigned char faces);
+    prepare(const Grid<dim> &grid, unsigned char faces, bool have_gap);
 
     /// Examine the soil. Call after the transfer to the grid and after
     /// obstacles have moved. Collective.
@@ -69,6 +71,24 @@ namespace talus
                : 0.;
     }
 
+    /// Area of a seabed face in contact with soil at a node, m^(dim-1).
+    double
+    area_in_contact(const NodalFields<dim> &nodes,
+                    const FaceNode<dim>    &at) const
+    {
+      const double covered = at_faces_.area(at.face, at.node) / at.area;
+      const double f       = std::min(1., nodes.volume(at.node) / at.volume);
+      return at.area * share_in_contact(std::min(1., covered), f);
+    }
+
+    /// Clearance between the soil at a node and a seabed face, m: distance in
+    /// excess of the contact distance.
+    double
+    gap(const FaceNode<dim> &at) const
+    {
+      return face_gaps_.room(at.face, at.node);
+    }
+
     /// Clearance between the soil at a node and an obstacle, m: distance in
     /// excess of the contact distance in cells of @p cell_size, m.
     double
@@ -97,6 +117,7 @@ namespace talus
     const Obstacles<dim> &obstacles_;
     const Facets<dim>    &facets_;
     FaceCoverage<dim>     at_faces_;
+    FaceGaps<dim>         face_gaps_;
     SurfaceTables<dim>    tables_{obstacles_};
     NodalGaps<dim>        gaps_; ///< surfaces: the obstacles
     FacetCoverage<dim>    coverage_{obstacles_, facets_};

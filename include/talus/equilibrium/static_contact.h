@@ -114,7 +114,8 @@ namespace talus
     struct Contact
     {
       unsigned int  node;
-      unsigned int  k; ///< index among the active nodes
+      unsigned int  k;     ///< index among the active nodes
+      unsigned int  place; ///< number in FacetConstraints
       unsigned int  face;
       unsigned char walls; ///< components held by walls, as bits
       double        area;  ///< m^(dim-1)
@@ -132,9 +133,9 @@ namespace talus
       softening() const;
 
       // Row of a PlaceTable
-      static constexpr unsigned int n_keys = 3;
+      static constexpr unsigned int n_keys = 4;
       static constexpr const char  *columns =
-        "key of the place of the node: upper and lower 32 bits; face; state; "
+        "key of the place of the node: upper and lower 32 bits; 0; face; state; "
         "friction [N]; reaction [N]";
 
       bool

@@ -39,12 +39,13 @@ namespace talus
       return faces_of_node_[node];
     }
 
-    /// Share of an owned node in face @p face of the mesh. The node must lie on
-    /// the face.
-    const FaceShare &
+    /// Share of an owned node in face @p face of the mesh: none for a hanging
+    /// node, or a node that does not lie on the face.
+    FaceShare
     face_share(const unsigned int face, const unsigned int node) const
     {
-      return face_shares_[face].at(node);
+      const auto found = face_shares_[face].find(node);
+      return found == face_shares_[face].end() ? FaceShare() : found->second;
     }
 
   protected:

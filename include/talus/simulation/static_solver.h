@@ -85,7 +85,7 @@ namespace talus
       std::vector<std::vector<double>> columns; ///< columns of the points
       StaticContact<dim>               contact;
       std::vector<double>              facet_forces;
-      std::vector<double> seabed_slip, obstacle_slip; ///< BedSlip::rows()
+      std::vector<double>              slip; ///< BedSlip::rows()
     };
 
     Saved

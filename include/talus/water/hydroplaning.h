@@ -2,7 +2,7 @@
 #ifndef talus_water_hydroplaning_h
 #define talus_water_hydroplaning_h
 
-#include <talus/boundaries/boundaries.h>
+#include <talus/contact/facet_contact.h>
 #include <talus/interaction/nodal_interaction.h>
 #include <talus/materials/materials.h>
 
@@ -35,10 +35,11 @@ namespace talus
   {
   public:
     /// @p materials give the densities of the soil, @p water its density; the
-    /// rule changes the seabed of @p boundaries.
-    Hydroplaning(const Materials<dim> &materials,
-                 const Water<dim>     &water,
-                 Boundaries<dim>      &boundaries);
+    /// rule changes the friction on the seabed of @p boundaries by @p contact.
+    Hydroplaning(const Materials<dim>  &materials,
+                 const Water<dim>      &water,
+                 const Boundaries<dim> &boundaries,
+                 FacetContact<dim>     &contact);
 
     /// Whether the rule is switched on.
     bool
@@ -115,9 +116,10 @@ namespace talus
     Extent
     extent(const State<dim> &state) const;
 
-    const Materials<dim> &materials_;
-    const Water<dim>     &water_;
-    Boundaries<dim>      &boundaries_;
+    const Materials<dim>  &materials_;
+    const Water<dim>      &water_;
+    const Boundaries<dim> &boundaries_;
+    FacetContact<dim>     &contact_;
 
     // Parameters
     double factor_   = 1.;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/boundaries/damping.h>
+#include <talus/contact/facet_contact.h>
 
 #include "ranks_setup.h"
 
@@ -11,7 +12,10 @@ namespace
   struct Damped : Core<2>
   {
     Damped(const double alpha, const std::string &conditions = "")
-      : Core<2>(cube<2>() + in_section("Boundaries", conditions))
+      : Core<2>(cube<2>() +
+                in_section("Boundaries",
+                           conditions + "\n" +
+                             in_section("Seabed", "set Gap = false")))
     {
       auto &prm = dealii::ParameterAcceptor::prm;
       dealii::ParameterAcceptor::declare_all_parameters();
@@ -20,8 +24,9 @@ namespace
       dealii::ParameterAcceptor::parse_all_parameters();
       boundaries.parse(Constants());
       boundaries.prepare(grid);
-      boundaries.set_gap(
-        [](const unsigned int, const unsigned int) { return 0.; });
+      contact.prepare(grid);
+      contact.open_accounts(accounts);
+      time_step = step_length;
       std::vector<unsigned int> all(grid.cells().size());
       for (unsigned int c = 0; c < all.size(); ++c)
         all[c] = c;
@@ -45,6 +50,18 @@ namespace
       return damping.apply(nodes, grid, 0.);
     }
 
+    /// Apply contact and walls, and record their works.
+    void
+    apply_boundaries()
+    {
+      contact.find_soil(*this);
+      contact.correct_velocities(*this);
+      boundaries.correct_velocities(*this);
+      contact.record(*this);
+    }
+
+    Obstacles<2>                     obstacles{{}};
+    FacetContact<2>                  contact{obstacles, boundaries};
     const std::vector<unsigned char> feels_obstacle;
     Damping<2>                       damping{boundaries, feels_obstacle};
   };
@@ -113,15 +130,15 @@ namespace
           }
         scene.boundaries.add_tractions(nodes, scene.grid, 0., 0.);
         const double taken = scene.apply();
-        const auto   work =
-          scene.boundaries.apply(nodes, scene.grid, 0., step_length, 0.);
+        scene.apply_boundaries();
         double of_forces = 0;
         for (unsigned int i = 0; i < force.size(); ++i)
           of_forces += step_length * force[i] *
                        nodes.mean_velocity(nodes.active_nodes()[i]);
         EXPECT_EQ(taken > 0, alpha > 0);
         EXPECT_NEAR(nodes.kinetic_energy() - before,
-                    of_forces - taken - work.contact - work.friction,
+                    of_forces - taken - scene.accounts.energy("contact work") -
+                      scene.accounts.energy("friction work"),
                     1e-12);
       }
   }
@@ -141,9 +158,9 @@ namespace
                        scene.vector(-1., 1.),
                        scene.vector(-40., 40.));
       scene.apply();
-      const auto work =
-        scene.boundaries.apply(scene.nodes, scene.grid, 0., step_length, 0.);
-      return std::make_pair(work.wall_impulse, work.seabed_impulse);
+      scene.apply_boundaries();
+      return std::make_pair(scene.accounts.impulse("wall impulse"),
+                            scene.accounts.impulse("seabed impulse"));
     };
     EXPECT_EQ(wall_impulse(0.), wall_impulse(0.9));
   }

@@ -9,9 +9,9 @@ namespace interface_friction_test
 {
   using namespace talus;
 
-  struct Surface : FreshParameters
+  struct Interface : FreshParameters
   {
-    explicit Surface(const std::string &entries)
+    explicit Interface(const std::string &entries)
       : friction("/Bed")
     {
       using dealii::ParameterAcceptor;
@@ -42,7 +42,7 @@ namespace interface_friction_test
 TEST(SofteningSurface, CapFallsWithSlip)
 {
   using namespace interface_friction_test;
-  Surface surface(softens);
+  Interface surface(softens);
   surface.friction.check();
   surface.friction.scale_strength(0.5);
   for (const double before : {0., 0.02, 0.3})
@@ -70,7 +70,7 @@ TEST(SofteningSurface, CapFallsWithSlip)
 TEST(SofteningSurface, SlipToRemould)
 {
   using namespace interface_friction_test;
-  const Surface surface(softens);
+  const Interface surface(softens);
   EXPECT_NEAR((1. - surface.friction.share_after_slip(0.1)) / 0.6, 0.95, 3e-4);
 }
 
@@ -79,7 +79,7 @@ TEST(SofteningSurface, SlipToRemould)
 TEST(SofteningSurface, TriggerIsASmallerShareAndNoProduct)
 {
   using namespace interface_friction_test;
-  Surface surface(softens);
+  Interface surface(softens);
   surface.friction.scale_triggered_region(0.7);
   const auto cap = [&](const double s, const bool is_triggered) {
     return surface.friction.limit(1000., 1., {s, is_triggered}).force(1e9);
@@ -107,7 +107,7 @@ TEST(SofteningSurface, ContradictionsAreRefused)
   for (const std::string entries :
        {"set Slip to remould = 0.1", "set Remoulded shear stress ratio = 0.5"})
     {
-      const Surface surface(entries);
+      const Interface surface(entries);
       EXPECT_TRUE(
         contains(message_of<ExcUser>([&]() { surface.friction.check(); }),
                  "Give both or neither"))

@@ -50,7 +50,7 @@ namespace
     {
       facets.prepare(grid, obstacles);
       contact_nodes.prepare(grid);
-      soil_at_places.prepare(grid, 0);
+      soil_at_places.prepare(grid, 0, false);
       constraints.prepare();
     }
 
@@ -97,6 +97,7 @@ namespace
       contact_nodes.hold_walls(*this, this->boundaries);
       soil_at_places.find(*this);
       contact_nodes.load(*this);
+      constraints.begin_step();
       constraints.find(*this, has_memory);
     }
 
@@ -114,8 +115,9 @@ namespace
     SoilAtPlaces<dim>     soil_at_places{obstacles, facets};
     ContactNodes<dim>     contact_nodes{facets};
     BedSlip<dim>          no_slip;
+    FaceNodes<dim>        face_nodes{this->boundaries};
     FacetConstraints<dim> constraints{
-      obstacles, facets, contact_nodes, soil_at_places, no_slip};
+      obstacles, facets, face_nodes, contact_nodes, soil_at_places, no_slip};
   };
 
 

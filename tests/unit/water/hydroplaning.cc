@@ -57,16 +57,15 @@ namespace hydroplaning_test
     expect_reduced(const double lower, const double upper)
     {
       problem.hydroplaning.begin_step(*this);
-      const auto   places = talus::places_of_owned_nodes(grid);
-      unsigned int n      = 0;
-      for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
-        if (grid.faces_of_node(node) & (1u << 2))
+      const auto  &nodes = problem.contact.face_nodes();
+      unsigned int n     = 0;
+      for (unsigned int i = 0; i < nodes.size(); ++i)
+        if (nodes[i].face == 2)
           {
             ++n;
-            const double x = places[node][0];
-            EXPECT_DOUBLE_EQ(
-              problem.boundaries.seabed().limit(2, node, 0.5).cap,
-              (x >= lower && x <= upper ? factor : 1.) * 1000.)
+            const double x = nodes[i].x[0];
+            EXPECT_DOUBLE_EQ(nodes.maximum_shear_stress(i),
+                             (x >= lower && x <= upper ? factor : 1.) * 2000.)
               << x;
           }
       EXPECT_EQ(n, 17u);

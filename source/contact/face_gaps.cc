@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/contact/seabed_gaps.h>
+#include <talus/contact/face_gaps.h>
 
 #include <algorithm>
 #include <numeric>
@@ -7,18 +7,6 @@
 namespace talus
 {
   using namespace dealii;
-
-  template <int dim>
-  SeabedGaps<dim>::SeabedGaps(Boundaries<dim> &boundaries)
-    : boundaries_(boundaries)
-  {
-    boundaries_.set_gap(
-      [this](const unsigned int face, const unsigned int node) {
-        return gaps_.room(node, surface_of_face_[face], cell_size_);
-      });
-  }
-
-
 
   namespace
   {
@@ -46,14 +34,14 @@ namespace talus
   // in all other cells are examined.
   template <int dim>
   void
-  SeabedGaps<dim>::prepare(const Grid<dim> &grid)
+  FaceGaps<dim>::prepare(const Grid<dim> &grid, const unsigned char faces)
   {
-    if (!boundaries_.has_seabed() || !boundaries_.seabed().has_gap())
+    faces_ = faces;
+    if (faces == 0)
       return;
     std::vector<typename NodalGaps<dim>::Surface> surfaces;
-    surface_of_face_.assign(2 * dim, 0);
     for (unsigned int face = 0; face < 2 * dim; ++face)
-      if (boundaries_.is_seabed(face))
+      if (faces & (1u << face))
         {
           surface_of_face_[face] = surfaces.size();
           surfaces.push_back(surface_of(face, grid.domain()));
@@ -67,15 +55,10 @@ namespace talus
                   [numbers](const Point<dim> &, double) { return numbers; });
     cell_size_ = grid.finest_size();
     pairs_.clear();
-    std::vector<unsigned char> is_on_seabed(grid.n_nodes(), 0);
     for (unsigned int node = 0; node < grid.n_nodes(); ++node)
       for (unsigned int face = 0; face < 2 * dim; ++face)
-        if (boundaries_.is_seabed(face) &&
-            (grid.faces_of_node(node) & (1u << face)))
-          {
-            is_on_seabed[node] = 1;
-            pairs_.push_back({node, surface_of_face_[face]});
-          }
+        if (grid.faces_of_node(node) & faces & (1u << face))
+          pairs_.push_back({node, surface_of_face_[face]});
     nearness_.assign(grid.cells().size(), 0);
     for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
       {
@@ -83,7 +66,7 @@ namespace talus
         nearness_[c]          = !cell.uniform;
         for (unsigned int k = 0; k < cell.patch.size(); ++k)
           if (cell.patch[k] != numbers::invalid_unsigned_int &&
-              is_on_seabed[cell.patch[k]])
+              (grid.faces_of_node(cell.patch[k]) & faces))
             nearness_[c] = std::max<unsigned char>(nearness_[c],
                                                    is_own_node<dim>(k) ? 2 : 1);
       }
@@ -93,14 +76,14 @@ namespace talus
 
   template <int dim>
   void
-  SeabedGaps<dim>::find(const State<dim> &state)
+  FaceGaps<dim>::find(const State<dim> &state)
   {
-    if (!nearness_.empty())
+    if (faces_ != 0)
       gaps_.find(state, pairs_, nearness_);
   }
 
 
 
-  template class SeabedGaps<2>;
-  template class SeabedGaps<3>;
+  template class FaceGaps<2>;
+  template class FaceGaps<3>;
 } // namespace talus
