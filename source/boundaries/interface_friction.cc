@@ -94,7 +94,7 @@ namespace talus
                              "/Film consistency' is 0, so that the film passes "
                              "no stress. Give the consistency in Pa s^n, or "
                              "remove the thickness.")));
-    AssertThrow(softens() == (remoulded_ratio_ < 1),
+    AssertThrow(changes_by_slip() == (remoulded_ratio_ < 1),
                 ExcUser(text("'",
                              section,
                              "/Slip to remould' is ",
@@ -113,7 +113,7 @@ namespace talus
   double
   InterfaceFriction::share_after_slip(const double slip) const
   {
-    return softens()
+    return changes_by_slip()
              ? remoulded_ratio_ + (1. - remoulded_ratio_) *
                                     std::exp(-3. * slip / slip_to_remould_)
              : 1.;
@@ -140,11 +140,17 @@ namespace talus
     CoulombLimit result;
     result.coefficient = coefficient();
     result.cap         = std::numeric_limits<double>::infinity();
+    if (film_consistency_ > 0)
+      {
+        result.film =
+          area * film_consistency_ / std::pow(film_thickness_, film_exponent_);
+        result.film_exponent = film_exponent_;
+      }
     if (std::isinf(maximum_shear_stress))
       return result;
     const double intact = shear_stress_factor_ * maximum_shear_stress * area;
     result.cap          = intact * share_left(state);
-    if (!softens())
+    if (!changes_by_slip())
       return result;
     result.residual = remoulded_ratio_ * intact;
     result.excess   = intact * share_after_slip(state.slip) - result.residual;
@@ -156,47 +162,31 @@ namespace talus
 
 
 
-  double
-  InterfaceFriction::film_force(const double slip_velocity,
-                                const double area) const
-  {
-    return film_consistency_ == 0
-             ? 0.
-             : area * film_consistency_ *
-                 std::pow(slip_velocity / film_thickness_, film_exponent_);
-  }
-
-
-
   // An explicit stiff film would reverse the motion. The residual increases
   // with the slip velocity, so Newton's method between bounds finds the root;
   // for exponents below 1 the slope is infinite at 0.
   double
-  InterfaceFriction::impulse(const double trial,
-                             const double mass,
-                             const double largest_force,
-                             const double area,
-                             const double dt) const
+  CoulombLimit::impulse(const double trial,
+                        const double mass,
+                        const double normal_force,
+                        const double dt) const
   {
-    const double rest = dt * largest_force;
+    const double rest = dt * force(normal_force);
     if (trial <= rest)
       return trial;
-    if (film_consistency_ == 0)
+    if (film == 0 || normal_force <= 0)
       return rest;
     const double excess = trial - rest;
-    if (film_exponent_ == 1.)
-      {
-        const double film = dt * film_force(1., area);
-        return rest + excess * film / (mass + film);
-      }
+    if (film_exponent == 1.)
+      return rest + excess * dt * film / (mass + dt * film);
     double lower = 0, upper = excess / mass, u = upper;
     for (unsigned int i = 0; i < 60; ++i)
       {
-        const double film           = dt * film_force(u, area);
-        const double error          = mass * u + film - excess;
+        const double braking        = dt * film * std::pow(u, film_exponent);
+        const double error          = mass * u + braking - excess;
         (error > 0 ? upper : lower) = u;
         const double before         = u;
-        u -= error / (mass + film_exponent_ * film / u);
+        u -= error / (mass + film_exponent * braking / u);
         if (!(u > lower && u < upper))
           u = 0.5 * (lower + upper);
         if (std::abs(u - before) <= 1e-14 * before)

@@ -229,7 +229,6 @@ namespace talus
 
 
 
-  // A film acts only where the surface bears soil.
   template <int dim>
   double
   FacetConstraints<dim>::friction_impulse(const unsigned int place,
@@ -237,12 +236,10 @@ namespace talus
                                           const double       normal_impulse,
                                           const double       dt) const
   {
-    const FacetConstraint<dim> &constraint = constraints_[place];
-    return bed(place).impulse(trial,
-                              constraint.mass,
-                              limit(place).force(normal_impulse / dt),
-                              normal_impulse > 0 ? constraint.area : 0.,
-                              dt);
+    return limit(place).impulse(trial,
+                                constraints_[place].mass,
+                                normal_impulse / dt,
+                                dt);
   }
 
 

@@ -109,7 +109,7 @@ namespace talus
       {
         const ContactFacet<dim> &facet   = facets_.owned()[c];
         const FacetImpulse<dim> &impulse = impulses_[c];
-        if (!obstacles_[facet.obstacle].bed().softens() ||
+        if (!obstacles_[facet.obstacle].bed().changes_by_slip() ||
             constraints_[c].normal_mass == 0)
           continue;
         const double limit =
@@ -151,7 +151,7 @@ namespace talus
           mean_normal(impulse, constraints_[c], impulse.normal);
         impulse.area = impulse.mean_normal > 0 ? constraints_[c].area : 0.;
       }
-    if (obstacles_.soften())
+    if (obstacles_.change_by_slip())
       add_slip(state);
     nodes_.write(state);
     hold_nodes_inside(state);
@@ -265,7 +265,7 @@ namespace talus
                                (impulse.normal * normal + impulse.tangential) /
                                  constraint.mass);
     // Soil without friction remoulds nothing.
-    if (projected.sticking < 1 && constraints_.bed(c).softens() &&
+    if (projected.sticking < 1 && constraints_.bed(c).changes_by_slip() &&
         constraints_.limit(c).force(impulse.mean_normal) > 0)
       {
         const Tensor<1, dim> slip = dt * (u - (u * normal) * normal);
@@ -540,8 +540,8 @@ namespace talus
   FacetContact<dim>::list_quantities(const State<dim> &state,
                                      Quantities       &list) const
   {
-    const bool on_seabed    = boundaries_.seabed().softens();
-    const bool on_obstacles = obstacles_.soften();
+    const bool on_seabed    = boundaries_.seabed().changes_by_slip();
+    const bool on_obstacles = obstacles_.change_by_slip();
     if (!on_seabed && !on_obstacles)
       return;
     const unsigned int n      = 1 + obstacles_.size();
@@ -575,7 +575,7 @@ namespace talus
     for (unsigned int k = 0; k < obstacles_.size(); ++k)
       reactions_[k].list_state("obstacle " + obstacles_[k].name(), list);
     impulses_.list_state("impulses of contact", list);
-    if (boundaries_.seabed().softens() || obstacles_.soften())
+    if (boundaries_.seabed().changes_by_slip() || obstacles_.change_by_slip())
       slip_.list_state("slip of beds", list);
   }
 

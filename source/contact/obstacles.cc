@@ -192,12 +192,12 @@ namespace talus
 
   template <int dim>
   bool
-  Obstacles<dim>::soften() const
+  Obstacles<dim>::change_by_slip() const
   {
     return std::any_of(obstacles_.begin(),
                        obstacles_.end(),
                        [](const auto &obstacle) {
-                         return obstacle->bed().softens();
+                         return obstacle->bed().changes_by_slip();
                        });
   }
 

@@ -117,7 +117,7 @@ namespace talus
                     std::vector<Field>      &fields)
     {
       const BedSlip<dim> &slip = contact.slip();
-      if (!contact.obstacles().soften() && !slip.has_region())
+      if (!contact.obstacles().change_by_slip() && !slip.has_region())
         return;
       fields.push_back(
         scalar_field("slip of the bed", "m", [&slip](const unsigned int c) {

@@ -56,7 +56,7 @@ namespace talus
 
   private:
     bool                                   is_enabled_ = false;
-    std::vector<unsigned int>              faces_; ///< of reactions_
+    std::vector<unsigned int>              faces_; ///< faces of reactions_
     std::array<StepReaction<dim>, 2 * dim> steps_; ///< by face, of this rank
     std::vector<Reaction<dim>>             reactions_;
   };

@@ -21,8 +21,9 @@ namespace talus
 
 
 
-  /// Maximum friction force of soil at rest on a surface: proportional to the
-  /// normal force up to a cap, which slip may reduce.
+  /// Friction of soil on a place of a surface. At rest the force is at most
+  /// proportional to the normal force, up to a cap, which slip may reduce; a
+  /// film of mud adds a viscous force on soil that slips.
   struct CoulombLimit
   {
     double coefficient = 0; ///< Coulomb friction [-]
@@ -34,6 +35,10 @@ namespace talus
     double excess   = 0; ///< N
     double rate     = 0; ///< 1/m; 0: the cap is constant
     double ceiling  = std::numeric_limits<double>::infinity(); ///< N
+
+    // The film adds film u^n at the slip velocity u.
+    double film          = 0; ///< N (s/m)^n
+    double film_exponent = 1; ///< n [-]
 
     bool
     softens() const
@@ -67,6 +72,17 @@ namespace talus
                ? -rate * lost
                : 0.;
     }
+
+    /// Return the length of the tangential impulse in a step, N s. The film is
+    /// implicit: the slip velocity u after the step satisfies
+    /// mass u + dt film u^n = trial - dt force(normal_force). A film acts only
+    /// under a normal force.
+    /// @param trial impulse that would stop the soil, N s
+    /// @param mass effective mass of the soil at the place, kg
+    /// @param normal_force N
+    /// @param dt time step, s
+    double
+    impulse(double trial, double mass, double normal_force, double dt) const;
 
     /// Whether the maximum friction force after a further slip, m, increases
     /// with the normal force, N.
@@ -130,9 +146,9 @@ namespace talus
       region_factor_ = factor;
     }
 
-    /// Whether slip takes a part of the maximum shear stress away.
+    /// Whether friction at a place changes by the slip of soil over the place.
     bool
-    softens() const
+    changes_by_slip() const
     {
       return slip_to_remould_ > 0;
     }
@@ -147,8 +163,8 @@ namespace talus
     double
     share_left(const SurfaceState &state) const;
 
-    /// Return the friction of soil at rest on @p area, m^(dim-1), in contact
-    /// with a place of the surface.
+    /// Return the friction of soil on @p area, m^(dim-1), in contact with a
+    /// place of the surface. All rules by which a place changes belong here.
     /// @param maximum_shear_stress of intact soil, Pa, which may be infinite
     /// @param area in contact, m^(dim-1)
     /// @param state of the place
@@ -156,26 +172,6 @@ namespace talus
     limit(double              maximum_shear_stress,
           double              area,
           const SurfaceState &state = {}) const;
-
-    /// Force of the film, N, at a slip velocity, m/s, on an area in contact,
-    /// m^(dim-1).
-    double
-    film_force(double slip_velocity, double area) const;
-
-    /// Return the length of the tangential impulse in a step, N s. The film is
-    /// implicit: the slip velocity u after the step satisfies
-    /// mass u + dt film_force(u) = trial - dt largest_force.
-    /// @param trial impulse that would stop the soil, N s
-    /// @param mass effective mass of the soil at the surface, kg
-    /// @param largest_force maximum friction force at rest, N
-    /// @param area area in contact, m^(dim-1)
-    /// @param dt time step, s
-    double
-    impulse(double trial,
-            double mass,
-            double largest_force,
-            double area,
-            double dt) const;
 
     /// Weight of the current normal force in the running mean [-], for a slip
     /// of @p slip, m, in the step and cells of @p cell_size, m. The memory of

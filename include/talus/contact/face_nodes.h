@@ -17,11 +17,11 @@ namespace talus
     unsigned int       node;
     unsigned int       face;
     PlaceKey           key;
-    dealii::Point<dim> x;      ///< m
-    double             area;   ///< of the face around the node, m^(dim-1)
-    double             volume; ///< of the cells at the face around it, m^dim
-    double             maximum_shear_stress; ///< of the intact seabed, Pa
-    unsigned char      walls; ///< components held by walls, bit d for axis d
+    dealii::Point<dim> x;    ///< m
+    double             area; ///< area of the face around the node, m^(dim-1)
+    double volume; ///< volume of the cells at the face around the node, m^dim
+    double maximum_shear_stress; ///< stress of the intact seabed, Pa
+    unsigned char walls;         ///< components held by walls, bit d for axis d
 
     /// Unit vector from the face into the mesh.
     dealii::Tensor<1, dim>

@@ -124,8 +124,8 @@ namespace talus
     bool
     keeps_slip() const
     {
-      return boundaries_.seabed().softens() || obstacles_.soften() ||
-             slip_.has_region();
+      return boundaries_.seabed().changes_by_slip() ||
+             obstacles_.change_by_slip() || slip_.has_region();
     }
 
     /// Slip of soil over the places, as in impulses(); without places unless

@@ -40,7 +40,7 @@ namespace talus
     dealii::Tensor<1, dim> tangential;         ///< along the facet, N s
     double                 effective_mass = 0; ///< mass of soil, kg; 0: none
     double mean_normal = 0; ///< running mean of `normal`, limits friction, N s
-    double area        = 0; ///< where soil pressed, m^(dim-1)
+    double area        = 0; ///< area on which soil pressed, m^(dim-1)
 
     bool
     acts() const

@@ -134,7 +134,7 @@ namespace talus
 
     /// Whether slip takes a part of a maximum shear stress away.
     bool
-    soften() const;
+    change_by_slip() const;
 
     void
     list_state(StateList &list);

@@ -135,7 +135,8 @@ namespace talus
       // Row of a PlaceTable
       static constexpr unsigned int n_keys = 4;
       static constexpr const char  *columns =
-        "key of the place of the node: upper and lower 32 bits; 0; face; state; "
+        "key of the place of the node: upper and lower 32 bits; 0; face; "
+        "state; "
         "friction [N]; reaction [N]";
 
       bool
