@@ -6,7 +6,6 @@
 #include <talus/io/files.h>
 #include <talus/io/map_outline.h>
 #include <talus/io/raster_file.h>
-#include <talus/io/utm_zone.h>
 #include <talus/terrain/bring_to_map.h>
 #include <talus/terrain/named_surface.h>
 #include <talus/terrain/plan_place.h>
@@ -32,13 +31,12 @@ namespace talus
   {
     add_parameter("File",
                   file_,
-                  "Raster of heights, from the folder of this file: an Esri "
-                  "ASCII grid or, if talus was built with GDAL, any format "
-                  "that GDAL reads (GeoTIFF, netCDF as GEBCO and GMT write "
-                  "it); in metres, or with a `Projection`. In 3-D x is the "
-                  "easting and -z the northing, from 'Grid/Origin' on. Or, 3-D "
-                  "only, the polygon of a GeoJSON file or, with GDAL, of any "
-                  "file of vectors (shapefile, GeoPackage, KML), as an "
+                  "Raster of heights, from the folder of this file, in any "
+                  "format that GDAL reads (GeoTIFF, Esri ASCII grid, netCDF as "
+                  "GEBCO and GMT write it); in metres, or with a `Projection`. "
+                  "In 3-D x is the easting and -z the northing, from "
+                  "'Grid/Origin' on. Or, 3-D only, the polygon of any file of "
+                  "vectors (GeoJSON, shapefile, GeoPackage, KML), as an "
                   "`Outline`.");
     add_parameter("Projection",
                   projection_,
@@ -46,8 +44,8 @@ namespace talus
                   "and which is the map of 'Grid/Origin' and `Section`: zone "
                   "and hemisphere as UTM 33N or UTM 33S, or a code of the "
                   "EPSG registry as EPSG:3575. A file without a coordinate "
-                  "system is then taken to be in degrees (WGS 84). Needs "
-                  "talus built with GDAL. Empty: the file is in metres.");
+                  "system is then taken to be in degrees (WGS 84). "
+                  "Empty: the file is in metres.");
     add_parameter("Cell size",
                   cell_size_,
                   "Cell size of the projected raster on the map of "
@@ -163,17 +161,7 @@ namespace talus
   std::string
   NamedSurface<dim>::map() const
   {
-    if (projection_.empty())
-      return "";
-    const std::string map = epsg_code(path("Projection"), projection_);
-    AssertThrow(!is_built_with_gdal() || map_unit(map) == MapUnit::metres,
-                ExcUser(text(path("Projection"),
-                             " = '",
-                             projection_,
-                             "' is no map that GDAL knows whose easting and "
-                             "northing are in metres. Give a projected "
-                             "coordinate system, such as UTM 33N.")));
-    return map;
+    return projection_.empty() ? "" : map_code(path("Projection"), projection_);
   }
 
 
@@ -202,7 +190,8 @@ namespace talus
                                " rows and ",
                                whole.n_columns,
                                " columns, but a surface needs two of both.")));
-      check_projection(file, whole, map);
+      if (map.empty())
+        check_in_metres(file, whole);
       return part_around(whole, plan, map);
     });
     return map.empty()

@@ -10,20 +10,6 @@
 
 namespace talus
 {
-  /// All polygons and lines of a GIS file.
-  struct MapFeatures
-  {
-    using Corners = std::vector<dealii::Point<2>>;
-
-    /// Each polygon is a list of rings, the outer one first.
-    std::vector<std::vector<Corners>> polygons;
-    std::vector<Corners>              lines;
-    /// As Raster::coordinate_system.
-    std::string coordinate_system;
-  };
-
-
-
   /// Area in plan.
   struct MapOutline
   {
@@ -45,15 +31,14 @@ namespace talus
 
 
 
-  /// Return whether @p file contains outlines, not a raster. GeoJSON is known
-  /// by the name, all further formats by the content (without GDAL by the
-  /// name).
+  /// Return whether GDAL reads vectors (points, lines, polygons) from @p file,
+  /// and no raster.
   bool
   is_outline_file(const std::filesystem::path &file);
 
 
 
-  /// Read the polygon of a GeoJSON file or, with GDAL, of any file of vectors.
+  /// Read the polygon of any file of vectors that GDAL reads.
   /// Throws ExcUser if @p file cannot be read, or contains no polygon, several
   /// polygons, or a hole.
   MapOutline

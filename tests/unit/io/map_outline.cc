@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Outlines of areas in plan: GeoJSON, and, with GDAL, other files of vectors.
+// Outlines of areas in plan in files of vectors.
 
 #include <talus/base/errors.h>
 #include <talus/io/coordinate_system.h>
 #include <talus/io/map_outline.h>
-#include <talus/version.h>
 
 #include <gtest/gtest.h>
 
@@ -67,7 +66,7 @@ namespace map_outline_test
         const MapLine read = read_line(file);
         EXPECT_EQ(read.corners,
                   (std::vector<Point<2>>{{15.1, 41.}, {15.2, 41.}}));
-        EXPECT_EQ(read.coordinate_system, "EPSG:4326");
+        EXPECT_EQ(map_unit(read.coordinate_system), MapUnit::degrees);
       }
     std::ofstream(file) << polygon(ring);
     const std::string message = message_of<ExcUser>([&]() { read_line(file); });
@@ -89,7 +88,7 @@ namespace map_outline_test
         const MapOutline outline = read(text);
         ASSERT_EQ(outline.corners.size(), 3u) << text;
         EXPECT_EQ(outline.corners[1], Point<2>(15.2, 41.));
-        EXPECT_EQ(outline.coordinate_system, "EPSG:4326");
+        EXPECT_EQ(map_unit(outline.coordinate_system), MapUnit::degrees);
       }
   }
 
@@ -102,11 +101,11 @@ namespace map_outline_test
              R"("}}, )";
     };
     for (const auto &[name, system] :
-         {std::make_pair("urn:ogc:def:crs:EPSG::32633",
-                         "urn:ogc:def:crs:EPSG::32633"),
+         {std::make_pair("urn:ogc:def:crs:EPSG::32633", "EPSG:32633"),
           std::make_pair("urn:ogc:def:crs:OGC:1.3:CRS84", "EPSG:4326")})
-      EXPECT_EQ(read(features(polygon(ring), crs(name))).coordinate_system,
-                system);
+      EXPECT_EQ(well_known_text(
+                  read(features(polygon(ring), crs(name))).coordinate_system),
+                well_known_text(system));
     expect_refused(features(polygon(ring), crs("nowhere")),
                    "has the coordinate system 'nowhere'");
   }
@@ -116,7 +115,7 @@ namespace map_outline_test
   TEST(Geojson, RefusesWhatIsNoOutline)
   {
     expect_refused("{", "cannot be read");
-    expect_refused("{}", "has 0 polygons");
+    expect_refused("{}", "cannot be read");
     expect_refused(features(R"({"type": "Point", "coordinates": [1, 2]})"),
                    "has 0 polygons");
     expect_refused(R"({"type": "MultiPolygon", "coordinates": [[)" + ring +
@@ -124,7 +123,7 @@ namespace map_outline_test
                    "has 2 polygons");
     expect_refused(polygon(ring + ", " + ring), "2 rings");
     expect_refused(polygon(R"([[1, "a"], [2, 3]])"), "cannot be read");
-    expect_refused(polygon("[[1], [2, 3]]"), "less than two numbers");
+    expect_refused(polygon("[[1], [2, 3]]"), "cannot be read");
   }
 
 
@@ -222,8 +221,6 @@ namespace map_outline_test
 
 
 
-#if TALUS_WITH_GDAL
-
   TEST(MapOutline, OfAnyFileOfVectors)
   {
     std::ofstream("area.kml") << kml("");
@@ -282,17 +279,4 @@ namespace map_outline_test
     std::ofstream("area.kml") << "<kml";
     expect_refused_file("area.kml", "cannot be read (");
   }
-
-#else
-
-  TEST(MapOutline, NeedsGdal)
-  {
-    write_shapefile("area.shp", 1, wgs_84_words);
-    EXPECT_TRUE(is_outline_file("area.shp"));
-    const std::string message =
-      message_of<ExcUser>([]() { read_outline("area.shp"); });
-    EXPECT_NE(message.find("ogr2ogr -t_srs"), std::string::npos) << message;
-  }
-
-#endif
 } // namespace map_outline_test
