@@ -207,8 +207,9 @@ namespace talus
 
 
     /// Return the sum of the products of weights and values, @p rows_apart in
-    /// memory from one row to the row in the north, and its derivatives on cells
-    /// of the size of @p raster. A missing value makes the height NaN.
+    /// memory from one row to the row in the north, and the derivatives of the
+    /// sum on cells of the size of @p raster. A missing value makes the height
+    /// NaN.
     HeightField::Value
     weighted_sum(const double        *values,
                  const std::ptrdiff_t rows_apart,

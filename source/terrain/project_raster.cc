@@ -173,9 +173,9 @@ namespace talus
 
   // Backwards, from each centre of a new cell to the old cells: values are
   // interpolated in the lattice of the raster, without a shift by half a cell.
-  // GDAL's warper has a cubic kernel, too, and with XSCALE and YSCALE of 1 gives
-  // a plane back inside, but beside the edges and beside cells without data it
-  // misses the plane by the slope over a cell.
+  // GDAL's warper has a cubic kernel, too, and with XSCALE and YSCALE of 1
+  // gives a plane back inside, but beside the edges and beside cells without
+  // data it misses the plane by the slope over a cell.
   Raster
   project_raster(Raster             raster,
                  const std::string &map,

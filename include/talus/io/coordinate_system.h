@@ -98,9 +98,9 @@ namespace talus
 
 
 
-  /// Return the lengths, m, of straight lines through the Earth (WGS 84) between
-  /// successive pairs of @p places of the @p coordinate_system. Infinite or NaN
-  /// for a place that is none.
+  /// Return the lengths, m, of straight lines through the Earth (WGS 84)
+  /// between successive pairs of @p places of the @p coordinate_system.
+  /// Infinite or NaN for a place that is none.
   std::vector<double>
   lengths_on_earth(std::vector<dealii::Point<2>> places,
                    const std::string            &coordinate_system);
