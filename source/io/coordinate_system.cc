@@ -146,24 +146,16 @@ namespace talus
 
 
 
-  struct MapTransformation::Implementation
-  {
-    std::unique_ptr<OGRCoordinateTransformation> transformation;
-  };
-
-
-
   MapTransformation::MapTransformation(const std::string &from,
                                        const std::string &to)
-    : implementation_(std::make_shared<Implementation>())
   {
     const QuietGdal quiet;
     const auto      source = spatial_reference(from);
     const auto      target = spatial_reference(to);
     if (source && target)
-      implementation_->transformation.reset(
+      transformation_.reset(
         OGRCreateCoordinateTransformation(&*source, &*target));
-    AssertThrow(implementation_->transformation,
+    AssertThrow(transformation_,
                 ExcUser(text(
                   "GDAL has no transformation from the coordinate "
                   "system '",
@@ -189,11 +181,11 @@ namespace talus
         y.push_back(place[1]);
       }
     std::vector<int> is_done(places.size());
-    implementation_->transformation->Transform(places.size(),
-                                               x.data(),
-                                               y.data(),
-                                               third ? third->data() : nullptr,
-                                               is_done.data());
+    transformation_->Transform(places.size(),
+                               x.data(),
+                               y.data(),
+                               third ? third->data() : nullptr,
+                               is_done.data());
     for (std::size_t i = 0; i < places.size(); ++i)
       places[i] =
         is_done[i] ? Point<2>(x[i], y[i]) : Point<2>(HUGE_VAL, HUGE_VAL);

@@ -151,7 +151,7 @@ namespace talus
 
 
 
-  MapOutline
+  MapCorners
   read_outline(const std::filesystem::path &file)
   {
     const MapFeatures found = read_features(file);
@@ -169,7 +169,7 @@ namespace talus
                        found.polygons[0].size(),
                        " rings, where one was expected: the outline, without "
                        "holes. Remove the holes.")));
-    MapOutline outline{found.polygons[0][0], found.coordinate_system};
+    MapCorners outline{found.polygons[0][0], found.coordinate_system};
     if (outline.corners.size() > 1 &&
         outline.corners.front() == outline.corners.back())
       outline.corners.pop_back();
@@ -178,7 +178,7 @@ namespace talus
 
 
 
-  MapLine
+  MapCorners
   read_line(const std::filesystem::path &file)
   {
     const MapFeatures found = read_features(file);

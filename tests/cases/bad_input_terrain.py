@@ -257,8 +257,10 @@ class BadInputTerrain(Case):
         for settings, *words in (
                 (["Surfaces/Names=bed", route + "1,1; 2,2"],
                  "'Obstacles/pipe/Route'", "does not cross the section"),
-                (["Surfaces/Names=bed", route + "1e29,1; 1e29,-1"],
+                (["Surfaces/Names=bed", route + "1e8,1; 1e8,-1"],
                  "'Obstacles/pipe/Height of axis'", "has no value"),
+                (["Surfaces/Names=bed", route + "1e29,1; 1e29,-1"],
+                 "'Obstacles/pipe/Route' contains '1e29,1'", "at most 1e9 m"),
                 (["Surfaces/Names=bed", route + "none.geojson"],
                  "none.geojson", "cannot be read"),
                 (["Surfaces/Names=bed", route + "none.shp"], "none.shp",

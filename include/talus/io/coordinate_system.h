@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+class OGRCoordinateTransformation;
+
 namespace talus
 {
   /// Unit of the coordinates on a map.
@@ -92,8 +94,7 @@ namespace talus
               std::vector<double>           *third = nullptr) const;
 
   private:
-    struct Implementation;
-    std::shared_ptr<Implementation> implementation_;
+    std::shared_ptr<OGRCoordinateTransformation> transformation_;
   };
 
 

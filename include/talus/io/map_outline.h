@@ -10,19 +10,9 @@
 
 namespace talus
 {
-  /// Area in plan.
-  struct MapOutline
-  {
-    std::vector<dealii::Point<2>> corners; ///< first corner not repeated at the
-                                           ///< end
-    /// As Raster::coordinate_system.
-    std::string coordinate_system;
-  };
-
-
-
-  /// Line in plan.
-  struct MapLine
+  /// Corners of an area or a line in plan; the first corner of an area is not
+  /// repeated at the end.
+  struct MapCorners
   {
     std::vector<dealii::Point<2>> corners;
     /// As Raster::coordinate_system.
@@ -41,12 +31,12 @@ namespace talus
   /// Read the polygon of any file of vectors that GDAL reads.
   /// Throws ExcUser if @p file cannot be read, or contains no polygon, several
   /// polygons, or a hole.
-  MapOutline
+  MapCorners
   read_outline(const std::filesystem::path &file);
 
   /// Read the line of a file, in the formats of read_outline(). Throws ExcUser
   /// if @p file cannot be read, or contains no line or several lines.
-  MapLine
+  MapCorners
   read_line(const std::filesystem::path &file);
 } // namespace talus
 

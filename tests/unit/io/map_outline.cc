@@ -25,7 +25,7 @@ namespace map_outline_test
     const std::string ring = "[[15.1, 41], [15.2, 41, 7], [15.2, 41.1], "
                              "[15.1, 41]]";
 
-    MapOutline
+    MapCorners
     read(const std::string &text)
     {
       std::ofstream(file) << text;
@@ -63,7 +63,7 @@ namespace map_outline_test
     for (const std::string &text : {line, features(line)})
       {
         std::ofstream(file) << text;
-        const MapLine read = read_line(file);
+        const MapCorners read = read_line(file);
         EXPECT_EQ(read.corners,
                   (std::vector<Point<2>>{{15.1, 41.}, {15.2, 41.}}));
         EXPECT_EQ(map_unit(read.coordinate_system), MapUnit::degrees);
@@ -85,7 +85,7 @@ namespace map_outline_test
           features(R"({"type": "MultiPolygon", "coordinates": [[)" + ring +
                    "]]}")})
       {
-        const MapOutline outline = read(text);
+        const MapCorners outline = read(text);
         ASSERT_EQ(outline.corners.size(), 3u) << text;
         EXPECT_EQ(outline.corners[1], Point<2>(15.2, 41.));
         EXPECT_EQ(map_unit(outline.coordinate_system), MapUnit::degrees);
@@ -228,7 +228,7 @@ namespace map_outline_test
     for (const std::string name : {"area.kml", "area.shp"})
       {
         EXPECT_TRUE(is_outline_file(name)) << name;
-        const MapOutline outline = read_outline(name);
+        const MapCorners outline = read_outline(name);
         EXPECT_EQ(outline.corners, triangle) << name;
         EXPECT_EQ(map_unit(outline.coordinate_system), MapUnit::degrees)
           << name;
@@ -249,7 +249,7 @@ namespace map_outline_test
          "<kml xmlns=\"http://www.opengis.net/kml/2.2\"><Document><Placemark>"
          "<LineString><coordinates>15.1,41,0 15.2,41.1,0</coordinates>"
          "</LineString></Placemark></Document></kml>";
-    const MapLine line = read_line("route.kml");
+    const MapCorners line = read_line("route.kml");
     EXPECT_EQ(line.corners, (std::vector<Point<2>>{{15.1, 41.}, {15.2, 41.1}}));
     EXPECT_EQ(map_unit(line.coordinate_system), MapUnit::degrees);
   }
