@@ -52,94 +52,145 @@ namespace talus
              (!std::isnan(value) || word.size() == 3) &&
              (at == end || (at + 1 == end && *at == '.'));
     }
-  } // namespace
 
 
+    /// Text of an Esri ASCII grid, line by line. Each function throws ExcUser.
+    class EsriText
+    {
+    public:
+      EsriText(const std::filesystem::path &file,
+               const unsigned int           n_columns,
+               const unsigned int           n_rows)
+        : name_("The raster '" + file.string() + "'")
+        , n_columns_(n_columns)
+        , n_rows_(n_rows)
+      {}
 
-  // GDAL takes a text that is no number for 0, and reads numbers without regard
-  // to lines: a missing number would shift all later ones. Like GDAL, the check
-  // takes the lines before the first one without a letter for the head.
-  void
-  check_esri_grid(const std::filesystem::path &file,
-                  const unsigned int           n_columns,
-                  const unsigned int           n_rows)
-  {
-    static const std::set<std::string> known = {"ncols",
-                                                "nrows",
-                                                "xllcorner",
-                                                "yllcorner",
-                                                "xllcenter",
-                                                "yllcenter",
-                                                "cellsize",
-                                                "dx",
-                                                "dy",
-                                                "nodata_value"};
-    std::ifstream                      in(file, std::ios::binary);
-    std::set<std::string>              keywords;
-    unsigned int                       n_lines = 0, row = 0;
-    const auto check = [&](const bool success, const auto &...words) {
-      AssertThrow(success,
-                  ExcUser(text("The raster '", file.string(), "'", words...)));
-    };
-    for (std::string line; std::getline(in, line);)
+      /// Check the next line. Like GDAL, take the lines before the first one
+      /// without a letter for the head.
+      void
+      check_line(std::string &line)
       {
-        const std::string place = text(", line ", ++n_lines, ": ");
-        if (n_lines == 1 && line.rfind("\xef\xbb\xbf", 0) == 0)
+        ++line_;
+        if (line_ == 1 && line.rfind("\xef\xbb\xbf", 0) == 0)
           line.erase(0, 3); // byte order mark of UTF-8
         const auto words = words_of(line);
         if (words.empty())
-          continue;
-        if (row == 0 && std::isalpha(static_cast<unsigned char>(line[0])))
-          {
-            const auto keyword = boost::to_lower_copy(std::string(words[0]));
-            check(words.size() == 2 && known.count(keyword) > 0 &&
-                    is_number(words[1]) && keywords.insert(keyword).second,
-                  place,
-                  "'",
-                  line.substr(0, 60),
-                  "' was found, where a keyword (ncols, nrows, xllcorner, "
-                  "yllcorner, xllcenter, yllcenter, cellsize, dx, dy, "
-                  "nodata_value; each once) and a number were expected, or a "
-                  "row that begins with digits. Correct it.");
-            continue;
-          }
-        check(++row <= n_rows,
-              place,
-              "there is one more row of values, but nrows is ",
-              n_rows,
+          return;
+        if (row_ == 0 && std::isalpha(static_cast<unsigned char>(line[0])))
+          check_head(line, words);
+        else
+          check_row(words);
+      }
+
+      void
+      check_end() const
+      {
+        check(row_ == n_rows_,
+              " has ",
+              row_,
+              " rows of values, where ",
+              n_rows_,
+              " (nrows) was expected. The file may be cut off: fetch or make "
+              "it anew.");
+        const auto has = [this](const std::string &place) {
+          return keywords_.count("xll" + place) +
+                 keywords_.count("yll" + place);
+        };
+        check(
+          has("corner") + has("center") == 2 && has("corner") != 1,
+          " has no place on the map, which an Esri ASCII grid needs: either "
+          "the lines 'xllcorner' and 'yllcorner', or 'xllcenter' and "
+          "'yllcenter'. Correct the head.");
+      }
+
+    private:
+      template <typename... Words>
+      void
+      check(const bool success, const Words &...words) const
+      {
+        AssertThrow(success, ExcUser(text(name_, words...)));
+      }
+
+      void
+      check_head(const std::string                   &line,
+                 const std::vector<std::string_view> &words)
+      {
+        static const std::set<std::string> known = {"ncols",
+                                                    "nrows",
+                                                    "xllcorner",
+                                                    "yllcorner",
+                                                    "xllcenter",
+                                                    "yllcenter",
+                                                    "cellsize",
+                                                    "dx",
+                                                    "dy",
+                                                    "nodata_value"};
+        const auto keyword = boost::to_lower_copy(std::string(words[0]));
+        check(words.size() == 2 && known.count(keyword) > 0 &&
+                is_number(words[1]) && keywords_.insert(keyword).second,
+              ", line ",
+              line_,
+              ": '",
+              line.substr(0, 60),
+              "' was found, where a keyword (ncols, nrows, xllcorner, "
+              "yllcorner, xllcenter, yllcenter, cellsize, dx, dy, "
+              "nodata_value; each once) and a number were expected, or a row "
+              "that begins with digits. Correct it.");
+      }
+
+      void
+      check_row(const std::vector<std::string_view> &words)
+      {
+        check(++row_ <= n_rows_,
+              ", line ",
+              line_,
+              ": there is one more row of values, but nrows is ",
+              n_rows_,
               ". Correct nrows or remove the row.");
-        check(words.size() == n_columns,
-              place,
-              "row ",
-              row,
+        check(words.size() == n_columns_,
+              ", line ",
+              line_,
+              ": row ",
+              row_,
               " has ",
               words.size(),
               " values, but ncols is ",
-              n_columns,
+              n_columns_,
               ". Give one line for each row, with one value for each column, "
               "separated by blanks.");
         for (std::size_t c = 0; c < words.size(); ++c)
           check(is_number(words[c]),
-                place,
-                "'",
+                ", line ",
+                line_,
+                ": '",
                 words[c],
                 "' was found in column ",
                 c + 1,
                 ", where a number was expected. Correct it.");
       }
-    check(row == n_rows,
-          " has ",
-          row,
-          " rows of values, where ",
-          n_rows,
-          " (nrows) was expected. The file may be cut off: fetch or make it "
-          "anew.");
-    check(
-      (keywords.count("xllcorner") > 0 && keywords.count("yllcorner") > 0) !=
-        (keywords.count("xllcenter") > 0 && keywords.count("yllcenter") > 0),
-      " has no place on the map, which an Esri ASCII grid needs: either "
-      "the lines 'xllcorner' and 'yllcorner', or 'xllcenter' and "
-      "'yllcenter'. Correct the head.");
+
+      const std::string     name_;
+      const unsigned int    n_columns_, n_rows_;
+      std::set<std::string> keywords_;
+      unsigned int          line_ = 0, row_ = 0; ///< checked so far
+    };
+  } // namespace
+
+
+
+  // GDAL takes a text that is no number for 0, and reads numbers without regard
+  // to lines: a missing number would shift all later ones.
+  void
+  check_esri_grid(const std::filesystem::path &file,
+                  const unsigned int           n_columns,
+                  const unsigned int           n_rows)
+  {
+    EsriText      content(file, n_columns, n_rows);
+    std::ifstream in(file, std::ios::binary);
+    for (std::string line; std::getline(in, line);)
+      content.check_line(line);
+    content.check_end();
   }
 
 
