@@ -15,14 +15,13 @@
 set -u
 cd "$(dirname "$0")/.." || exit 1
 
-steps=(lint debug sanitize clang no-gdal levels slow documentation tidy
+steps=(lint debug sanitize clang levels slow documentation tidy
   bookworm trixie package)
 declare -A purpose=(
   [lint]="layout of the sources, language, links, arrows between rooms"
   [debug]="Debug with the assertions of deal.II: unit tests on 1 to 3 ranks"
   [sanitize]="address and undefined behaviour sanitizers: tests of the readers"
   [clang]="clang 16: unit tests"
-  [no-gdal]="without GDAL: unit tests, bad input, maps"
   [levels]="three levels of processors: unit tests, installation, a law of a user"
   [slow]="cases of minutes to an hour each: ctest --preset slow"
   [documentation]="HTML of the pages and of the headers, without warnings"
@@ -123,18 +122,6 @@ step_clang() {
   cmake --preset clang "${launcher[@]}"
   cmake --build --preset clang
   unit_tests build/clang
-}
-
-step_no_gdal() {
-  own_tree no-gdal -DCMAKE_DISABLE_FIND_PACKAGE_GDAL=ON -DTALUS_PYTHON=OFF
-  cmake --build build/no-gdal --target talus talus-unit talus-width talus-fork-server
-  if build/no-gdal/talus --version | grep -q GDAL; then
-    echo "talus was built with GDAL all the same."
-    return 1
-  fi
-  unit_tests build/no-gdal
-  ctest --test-dir build/no-gdal --no-tests=error --output-on-failure -j "$jobs" \
-    -LE slow -R '^case/(Georeference|BadInput|CommandLine|ParameterFiles|Maps|Tsunami)'
 }
 
 # The unit tests run on the first level, x86-64-v2.

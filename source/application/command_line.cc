@@ -85,8 +85,7 @@ namespace talus
       {
         out << "talus " << TALUS_VERSION << " (git revision "
             << TALUS_GIT_REVISION << "), deal.II " << DEAL_II_PACKAGE_VERSION
-            << ", kernels for " << processor()
-            << (TALUS_WITH_GDAL ? ", with GDAL" : "") << std::endl;
+            << ", kernels for " << processor() << std::endl;
         return {};
       }
     AssertThrow(result.document || !result.parameter_file.empty(),

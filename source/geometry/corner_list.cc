@@ -16,16 +16,17 @@ namespace talus
     for (const auto &corner : Utilities::split_string_list(list, ';'))
       {
         const auto numbers = Utilities::split_string_list(corner, ',');
-        AssertThrow(numbers.size() == 2 &&
-                      Patterns::Double().match(numbers[0]) &&
-                      Patterns::Double().match(numbers[1]),
+        // Squares of larger numbers would overflow.
+        const Patterns::Double number(-1e9, 1e9);
+        AssertThrow(numbers.size() == 2 && number.match(numbers[0]) &&
+                      number.match(numbers[1]),
                     ExcUser(
                       text(path,
                            " contains '",
                            corner,
-                           "', where two numbers separated by a comma were "
-                           "expected; corners are separated by "
-                           "semicolons.")));
+                           "', where two numbers of at most 1e9 m, separated "
+                           "by a comma, were expected; corners are separated "
+                           "by semicolons.")));
         corners.emplace_back(Utilities::string_to_double(numbers[0]),
                              Utilities::string_to_double(numbers[1]));
       }

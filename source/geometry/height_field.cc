@@ -6,7 +6,6 @@
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,40 +15,61 @@ namespace talus
 
   namespace
   {
-    /// Weights of the values and slopes at both ends of an interval, for the
-    /// value or the derivative in the interval.
-    struct Hermite
+    using Weights = std::array<double, 4>;
+
+
+
+    /// Return the weights of four values along an axis at @p t between the
+    /// second (0) and the third (1): Hermite's cubic with slopes by central
+    /// differences.
+    Weights
+    weights(const double t)
     {
-      std::array<double, 2> value, slope;
-    };
-
-
-
-    /// Hermite's cubic for 0 <= t <= 1, linear outside.
-    Hermite
-    hermite(const double t)
-    {
-      if (t < 0.)
-        return {{{1., 0.}}, {{t, 0.}}};
-      if (t > 1.)
-        return {{{0., 1.}}, {{0., t - 1.}}};
       const double s = 1. - t;
-      return {{{s * s * (1. + 2. * t), t * t * (3. - 2. * t)}},
-              {{s * s * t, -t * t * s}}};
+      return {{-0.5 * (s * s * t),
+               s * s * (1. + 2. * t) - 0.5 * (-t * t * s),
+               t * t * (3. - 2. * t) + 0.5 * (s * s * t),
+               0.5 * (-t * t * s)}};
     }
 
 
 
-    Hermite
-    hermite_derivative(const double t)
+    Weights
+    weights_of_slope(const double t)
     {
-      if (t < 0.)
-        return {{{0., 0.}}, {{1., 0.}}};
-      if (t > 1.)
-        return {{{0., 0.}}, {{0., 1.}}};
+      const double s = 1. - t, first = s * (1. - 3. * t),
+                   last = t * (3. * t - 2.);
+      return {{-0.5 * first,
+               -6. * s * t - 0.5 * last,
+               6. * s * t + 0.5 * first,
+               0.5 * last}};
+    }
+
+
+
+    /// Return the weights of the control points of a Bezier curve, which is
+    /// linear outside of 0 <= t <= 1.
+    Weights
+    bernstein(const double t)
+    {
       const double s = 1. - t;
-      return {{{-6. * s * t, 6. * s * t}},
-              {{s * (1. - 3. * t), t * (3. * t - 2.)}}};
+      if (t < 0.)
+        return {{1. - 3. * t, 3. * t, 0., 0.}};
+      if (s < 0.)
+        return {{0., 0., 3. * s, 1. - 3. * s}};
+      return {{s * s * s, 3. * s * s * t, 3. * s * t * t, t * t * t}};
+    }
+
+
+
+    Weights
+    bernstein_of_slope(const double t)
+    {
+      const double u = std::clamp(t, 0., 1.), s = 1. - u;
+      return {{-3. * s * s,
+               3. * s * (s - 2. * u),
+               3. * u * (2. * s - u),
+               3. * u * u}};
     }
   } // namespace
 
@@ -123,37 +143,52 @@ namespace talus
 
 
 
-  /// Bounds by the control points of the Bezier form: heights are weighted
-  /// means of the control points, and derivatives are weighted means of the
-  /// differences of control points.
-  void
-  HeightField::extend_bounds(const int column, const int row)
+  /// Return the control points of the Bezier form between the centres of four
+  /// cells, of which the south-western one is given, row by row from the south;
+  /// NaN if one of the four values is missing.
+  HeightField::ControlPoints
+  HeightField::control_points(const int column, const int row) const
   {
-    std::array<std::array<double, 4>, 4> p; // by x, then y
+    ControlPoints p;
     for (int j = 0; j < 2; ++j)
       for (int i = 0; i < 2; ++i)
         {
           if (!has_value(column + i, row + j))
-            return;
+            {
+              p.fill(std::numeric_limits<double>::quiet_NaN());
+              return p;
+            }
           const Node n  = node(column + i, row + j);
           const int  sx = (i == 0 ? 1 : -1), sy = (j == 0 ? 1 : -1);
           for (int k = 0; k < 2; ++k)
             for (int l = 0; l < 2; ++l)
-              p[3 * i + k * sx][3 * j + l * sy] =
+              p[4 * (3 * j + l * sy) + 3 * i + k * sx] =
                 n.f + (k * sx * n.fx + l * sy * n.fy) / 3. +
                 k * l * sx * sy * n.fxy / 9.;
         }
+    return p;
+  }
+
+
+
+  /// Heights are weighted means of the control points, and derivatives are
+  /// weighted means of the differences of control points.
+  void
+  HeightField::extend_bounds(const int column, const int row)
+  {
+    const ControlPoints p = control_points(column, row);
+    if (std::isnan(p[0]))
+      return;
     double along_x = 0., along_y = 0.;
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j)
-        {
-          bounds_.lowest  = std::min(bounds_.lowest, p[i][j]);
-          bounds_.highest = std::max(bounds_.highest, p[i][j]);
-          if (i < 3)
-            along_x = std::max(along_x, std::abs(p[i + 1][j] - p[i][j]));
-          if (j < 3)
-            along_y = std::max(along_y, std::abs(p[i][j + 1] - p[i][j]));
-        }
+    for (int i = 0; i < 16; ++i)
+      {
+        bounds_.lowest  = std::min(bounds_.lowest, p[i]);
+        bounds_.highest = std::max(bounds_.highest, p[i]);
+        if (i % 4 < 3)
+          along_x = std::max(along_x, std::abs(p[i + 1] - p[i]));
+        if (i < 12)
+          along_y = std::max(along_y, std::abs(p[i + 4] - p[i]));
+      }
     bounds_.slope =
       std::max(bounds_.slope,
                3. * std::hypot(along_x / raster_.dx, along_y / raster_.dy));
@@ -163,85 +198,41 @@ namespace talus
 
   namespace
   {
-    /// Return the weights of the four values along an axis: Hermite's cubic
-    /// with slopes by central differences.
-    std::array<double, 4>
-    weights(const Hermite &h)
+    /// Weights along an axis, for the value and for its derivative per cell.
+    struct AxisWeights
     {
-      return {{-0.5 * h.slope[0],
-               h.value[0] - 0.5 * h.slope[1],
-               h.value[1] + 0.5 * h.slope[0],
-               0.5 * h.slope[1]}};
+      Weights of_value, of_slope;
+    };
+
+
+
+    /// Return the sum of the products of weights and values, @p rows_apart in
+    /// memory from one row to the row in the north, and the derivatives of the
+    /// sum on cells of the size of @p raster. A missing value makes the height
+    /// NaN.
+    HeightField::Value
+    weighted_sum(const double        *values,
+                 const std::ptrdiff_t rows_apart,
+                 const AxisWeights   &x,
+                 const AxisWeights   &y,
+                 const Raster        &raster)
+    {
+      double f = 0., fx = 0., fy = 0.;
+      for (unsigned int l = 0; l < 4; ++l, values += rows_apart)
+        {
+          double sum = 0., slope = 0.;
+          for (unsigned int k = 0; k < 4; ++k)
+            {
+              sum += x.of_value[k] * values[k];
+              slope += x.of_slope[k] * values[k];
+            }
+          f += y.of_value[l] * sum;
+          fx += y.of_value[l] * slope;
+          fy += y.of_slope[l] * sum;
+        }
+      return {f, Point<2>(fx / raster.dx, fy / raster.dy)};
     }
   } // namespace
-
-
-
-  /// Fast path, valid nearly everywhere: all sixteen values around the place
-  /// exist. Points near an obstacle evaluate the surface in every step. A
-  /// missing value makes the sum NaN.
-  HeightField::Value
-  HeightField::inner_value(const int    column,
-                           const int    row,
-                           const double u,
-                           const double v,
-                           bool        &is_known) const
-  {
-    const auto x       = weights(hermite(u)),
-               along_x = weights(hermite_derivative(u));
-    const auto y       = weights(hermite(v)),
-               along_y = weights(hermite_derivative(v));
-    double        f = 0., fx = 0., fy = 0.;
-    const double *from =
-      &raster_.values[std::size_t(raster_.n_rows - row) * raster_.n_columns +
-                      column - 1];
-    for (unsigned int l = 0; l < 4; ++l, from -= raster_.n_columns)
-      {
-        double sum = 0., slope = 0.;
-        for (unsigned int k = 0; k < 4; ++k)
-          {
-            sum += x[k] * from[k];
-            slope += along_x[k] * from[k];
-          }
-        f += y[l] * sum;
-        fx += y[l] * slope;
-        fy += along_y[l] * sum;
-      }
-    is_known = !std::isnan(f);
-    return {f, Point<2>(fx / raster_.dx, fy / raster_.dy)};
-  }
-
-
-
-  /// General path, node by node.
-  HeightField::Value
-  HeightField::outer_value(const int    column,
-                           const int    row,
-                           const double u,
-                           const double v,
-                           bool        &is_known) const
-  {
-    const Hermite x = hermite(u), along_x = hermite_derivative(u);
-    const Hermite y = hermite(v), along_y = hermite_derivative(v);
-    Value         result{0., {}};
-    is_known = true;
-    for (int l = 0; l < 2; ++l)
-      for (int k = 0; k < 2; ++k)
-        {
-          is_known = is_known && has_value(column + k, row + l);
-          if (!is_known)
-            return result;
-          const Node n   = node(column + k, row + l);
-          const auto add = [&](const Hermite &a, const Hermite &b) {
-            return a.value[k] * (b.value[l] * n.f + b.slope[l] * n.fy) +
-                   a.slope[k] * (b.value[l] * n.fx + b.slope[l] * n.fxy);
-          };
-          result.height += add(x, y);
-          result.slope[0] += add(along_x, y) / raster_.dx;
-          result.slope[1] += add(x, along_y) / raster_.dy;
-        }
-    return result;
-  }
 
 
 
@@ -260,12 +251,23 @@ namespace talus
     const int i = std::min(std::max(int(u), 0), n_x - 2);
     const int j = std::min(std::max(int(v), 0), n_y - 2);
 
-    bool is_known = false;
+    // Points near an obstacle evaluate the surface in every step: nearly
+    // everywhere all sixteen values around the place exist.
+    const double s = u - i, t = v - j;
     if (i > 0 && j > 0 && i < n_x - 2 && j < n_y - 2)
-      if (const Value value = inner_value(i, j, u - i, v - j, is_known);
-          is_known)
+      if (const Value value =
+            weighted_sum(&raster_.values[std::size_t(n_y - j) * n_x + i - 1],
+                         -n_x,
+                         {weights(s), weights_of_slope(s)},
+                         {weights(t), weights_of_slope(t)},
+                         raster_);
+          !std::isnan(value.height))
         return value;
-    const Value value = outer_value(i, j, u - i, v - j, is_known);
-    return is_known ? value : std::optional<Value>();
+    const Value value = weighted_sum(control_points(i, j).data(),
+                                     4,
+                                     {bernstein(s), bernstein_of_slope(s)},
+                                     {bernstein(t), bernstein_of_slope(t)},
+                                     raster_);
+    return std::isnan(value.height) ? std::optional<Value>() : value;
   }
 } // namespace talus

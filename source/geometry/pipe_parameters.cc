@@ -48,8 +48,8 @@ namespace talus
                   route_,
                   "Corners of the pipe's axis in plan, as x, z; x, z; ... "
                   "[m]. With `Coordinates` = map: as easting, northing [m], "
-                  "or the name of a file with one line (GeoJSON; with GDAL "
-                  "also shapefile, GeoPackage, KML), in degrees if a surface "
+                  "or the name of a file with one line (GeoJSON, "
+                  "shapefile, GeoPackage, KML), in degrees if a surface "
                   "has a `Projection`. In 2-D the pipe is a disc at the "
                   "crossing of the route and the section; the section is z = "
                   "0, or on the map the line of the rasters' `Section`.");

@@ -7,18 +7,11 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <regex>
 
 namespace talus
 {
   using namespace dealii;
-
-  bool
-  is_built_with_gdal()
-  {
-    return true;
-  }
-
-
 
   // Files and addresses in place of a description are not opened. Old files
   // .prj of Arc have lines such as `Projection UTM` and `Units FEET`.
@@ -114,24 +107,55 @@ namespace talus
 
 
 
-  struct MapTransformation::Implementation
+  std::string
+  map_code(const std::string &path, const std::string &name)
   {
-    std::unique_ptr<OGRCoordinateTransformation> transformation;
-  };
+    std::smatch parts;
+    std::string code = name;
+    if (std::regex_match(name,
+                         parts,
+                         std::regex("UTM ?([1-9]|[1-5][0-9]|60)([NS])")))
+      code =
+        text("EPSG:", (parts[2] == "S" ? 32700 : 32600) + std::stoi(parts[1]));
+    AssertThrow(
+      std::regex_match(code, std::regex("EPSG:[0-9]+")) &&
+        map_unit(code) == MapUnit::metres,
+      ExcUser(text(path,
+                   " = '",
+                   name,
+                   "' was found, where a UTM zone from 1 to 60 and a "
+                   "hemisphere were expected, such as UTM 33N or UTM 33S, or "
+                   "the code of a map in metres that GDAL knows, such as "
+                   "EPSG:3575. Correct the entry.")));
+    return code;
+  }
+
+
+
+  std::string
+  utm_zone(const Point<2> &place, const std::string &coordinate_system)
+  {
+    std::vector<Point<2>> places = {place};
+    if (map_unit(coordinate_system) != MapUnit::degrees)
+      MapTransformation(coordinate_system, wgs_84).transform(places);
+    const double turns = (places[0][0] + 180.) / 360.;
+    return text("UTM ",
+                1 + static_cast<int>(60. * (turns - std::floor(turns))),
+                places[0][1] < 0. ? 'S' : 'N');
+  }
 
 
 
   MapTransformation::MapTransformation(const std::string &from,
                                        const std::string &to)
-    : implementation_(std::make_shared<Implementation>())
   {
     const QuietGdal quiet;
     const auto      source = spatial_reference(from);
     const auto      target = spatial_reference(to);
     if (source && target)
-      implementation_->transformation.reset(
+      transformation_.reset(
         OGRCreateCoordinateTransformation(&*source, &*target));
-    AssertThrow(implementation_->transformation,
+    AssertThrow(transformation_,
                 ExcUser(text(
                   "GDAL has no transformation from the coordinate "
                   "system '",
@@ -146,7 +170,8 @@ namespace talus
 
 
   void
-  MapTransformation::transform(std::vector<Point<2>> &places) const
+  MapTransformation::transform(std::vector<Point<2>> &places,
+                               std::vector<double>   *third) const
   {
     const QuietGdal     quiet;
     std::vector<double> x, y;
@@ -156,10 +181,29 @@ namespace talus
         y.push_back(place[1]);
       }
     std::vector<int> is_done(places.size());
-    implementation_->transformation->Transform(
-      places.size(), x.data(), y.data(), nullptr, is_done.data());
+    transformation_->Transform(places.size(),
+                               x.data(),
+                               y.data(),
+                               third ? third->data() : nullptr,
+                               is_done.data());
     for (std::size_t i = 0; i < places.size(); ++i)
       places[i] =
         is_done[i] ? Point<2>(x[i], y[i]) : Point<2>(HUGE_VAL, HUGE_VAL);
+  }
+
+
+
+  // By the axes of the Earth, EPSG:4978. In a cell of a degree, chord and arc
+  // differ by a hundred-thousandth.
+  std::vector<double>
+  lengths_on_earth(std::vector<Point<2>> places,
+                   const std::string    &coordinate_system)
+  {
+    std::vector<double> z(places.size(), 0.), lengths;
+    MapTransformation(coordinate_system, "EPSG:4978").transform(places, &z);
+    for (std::size_t i = 0; i + 1 < places.size(); i += 2)
+      lengths.push_back(
+        std::hypot(places[i].distance(places[i + 1]), z[i] - z[i + 1]));
+    return lengths;
   }
 } // namespace talus

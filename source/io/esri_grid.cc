@@ -3,13 +3,14 @@
 #include <talus/io/esri_grid.h>
 #include <talus/io/files.h>
 
+#include <boost/algorithm/string/case_conv.hpp>
+
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <map>
-#include <optional>
-#include <string>
+#include <set>
 #include <string_view>
 
 namespace talus
@@ -18,361 +19,178 @@ namespace talus
 
   namespace
   {
-    /// Line of the file, for messages.
-    struct Line
-    {
-      const std::filesystem::path &file;
-      unsigned int                 number;
-      std::string                  content;
-
-      std::string
-      place() const
-      {
-        return text("The raster '", file.string(), "', line ", number, ": ");
-      }
-    };
-
-
-
-    std::string
-    lower_case(std::string_view word)
-    {
-      std::string result(word);
-      std::transform(result.begin(),
-                     result.end(),
-                     result.begin(),
-                     [](const unsigned char c) { return std::tolower(c); });
-      return result;
-    }
-
-
-
-    /// Split a line at blanks, semicolons and the additional @p separators.
+    /// Return the words of a line, in which decimal commas become points.
     std::vector<std::string_view>
-    split(const std::string_view line, const std::string &separators)
+    words_of(std::string &line)
     {
-      const std::string             blanks = " \t\r;" + separators;
-      std::vector<std::string_view> parts;
-      for (std::size_t end = 0;;)
+      const char *const             blanks = " \t\r";
+      std::vector<std::string_view> words;
+      std::replace(line.begin(), line.end(), ',', '.');
+      const std::string_view whole = line;
+      for (std::size_t end = 0, begin;
+           (begin = whole.find_first_not_of(blanks, end)) != whole.npos;)
         {
-          const std::size_t begin = line.find_first_not_of(blanks, end);
-          if (begin == std::string_view::npos)
-            return parts;
-          end = std::min(line.find_first_of(blanks, begin), line.size());
-          parts.push_back(line.substr(begin, end - begin));
+          end = std::min(whole.find_first_of(blanks, begin), whole.size());
+          words.push_back(whole.substr(begin, end - begin));
         }
+      return words;
     }
 
 
 
-    /// Parse a number, independently of the locale. Returns nothing for a text
-    /// without a number; nan is a number.
-    std::optional<double>
-    number(std::string_view word)
-    {
-      std::string with_point(word);
-      std::replace(with_point.begin(), with_point.end(), ',', '.');
-      word = with_point;
-      if (!word.empty() && word[0] == '+')
-        word.remove_prefix(1);
-      double     result = 0.;
-      const auto end    = word.data() + word.size();
-      const auto parsed = std::from_chars(word.data(), end, result);
-      if (parsed.ec != std::errc() || parsed.ptr != end || std::isinf(result))
-        return {};
-      return result;
-    }
-
-
-
-    /// Numbers of the lines before the values, by keyword.
-    using Header = std::map<std::string, double>;
-
-    /// Return a common name of the keyword for all dialects; empty if unknown.
-    std::string
-    keyword(const std::string_view word)
-    {
-      static const std::map<std::string, std::string> names = {
-        {"ncols", "ncols"},
-        {"nrows", "nrows"},
-        {"xllcorner", "xllcorner"},
-        {"yllcorner", "yllcorner"},
-        {"xllcenter", "xllcenter"},
-        {"yllcenter", "yllcenter"},
-        {"xllcentre", "xllcenter"},
-        {"yllcentre", "yllcenter"},
-        {"cellsize", "cellsize"},
-        {"dx", "dx"},
-        {"dy", "dy"},
-        {"nodata_value", "nodata"},
-        {"nodata", "nodata"}};
-      const auto found = names.find(lower_case(word));
-      return found == names.end() ? "" : found->second;
-    }
-
-
-
-    /// Add the line to the header, or return false if the line does not belong
-    /// to the header. The values begin at the first line with only numbers.
+    /// Return whether GDAL reads the whole word as a number or as nan. The
+    /// comma of "1.5, 2.5" is a point here.
     bool
-    read_header_line(const Line &line, Header &header)
+    is_number(std::string_view word)
     {
-      auto words = split(line.content, ",");
-      if (!words.empty() && std::all_of(words.begin(), words.end(), [](auto w) {
-            return number(w).has_value();
-          }))
-        return false;
-      words = split(line.content, "=:");
-      // A comma after the keyword is a separator, in the number a decimal
-      // point.
-      for (auto &word : words)
-        while (!word.empty() && word.back() == ',')
-          word.remove_suffix(1);
-      if (words.size() == 1)
-        words = split(line.content, ",");
-      // Some dialects have the number first.
-      if (words.size() == 2 && keyword(words[0]).empty())
-        std::swap(words[0], words[1]);
-      const std::string name = words.empty() ? "" : keyword(words[0]);
-      const auto        value =
-        words.size() == 2 ? number(words[1]) : std::optional<double>();
-      AssertThrow(!name.empty() && value.has_value(),
-                  ExcUser(text(line.place(),
-                               "'",
-                               line.content,
-                               "' was found, where a keyword and a number were "
-                               "expected (ncols, nrows, xllcorner, yllcorner, "
-                               "xllcenter, yllcenter, cellsize, dx, dy, "
-                               "nodata_value) or a row of numbers. Correct "
-                               "it.")));
-      AssertThrow(header.emplace(name, *value).second,
-                  ExcUser(text(line.place(),
-                               "the keyword '",
-                               name,
-                               "' is there twice. Remove one of the two.")));
-      return true;
+      if (word[0] == '+')
+        word.remove_prefix(1);
+      double            value = 0.;
+      const char *const end   = word.data() + word.size();
+      const auto [at, error]  = std::from_chars(word.data(), end, value);
+      return error == std::errc() && !std::isinf(value) &&
+             (!std::isnan(value) || word.size() == 3) &&
+             (at == end || (at + 1 == end && *at == '.'));
     }
 
 
-
-    /// Return the value of the first of @p names that the header contains.
-    double
-    required(const std::filesystem::path    &file,
-             const Header                   &header,
-             const std::vector<std::string> &names)
+    /// Text of an Esri ASCII grid, line by line. Each function throws ExcUser.
+    class EsriText
     {
-      for (const std::string &name : names)
-        if (const auto found = header.find(name); found != header.end())
-          return found->second;
-      AssertThrow(
-        false,
-        ExcUser(
-          text("The raster '",
-               file.string(),
-               "' has no line with '",
-               names[0],
-               "', which an Esri ASCII grid needs. Add the line, or "
-               "convert the raster: gdal_translate -of AAIGrid IN OUT.asc.")));
-      return 0.;
-    }
+    public:
+      EsriText(const std::filesystem::path &file,
+               const unsigned int           n_columns,
+               const unsigned int           n_rows)
+        : name_("The raster '" + file.string() + "'")
+        , n_columns_(n_columns)
+        , n_rows_(n_rows)
+      {}
 
+      /// Check the next line. Like GDAL, take the lines before the first one
+      /// without a letter for the head.
+      void
+      check_line(std::string &line)
+      {
+        ++line_;
+        if (line_ == 1 && line.rfind("\xef\xbb\xbf", 0) == 0)
+          line.erase(0, 3); // byte order mark of UTF-8
+        const auto words = words_of(line);
+        if (words.empty())
+          return;
+        if (row_ == 0 && std::isalpha(static_cast<unsigned char>(line[0])))
+          check_head(line, words);
+        else
+          check_row(words);
+      }
 
+      void
+      check_end() const
+      {
+        check(row_ == n_rows_,
+              " has ",
+              row_,
+              " rows of values, where ",
+              n_rows_,
+              " (nrows) was expected. The file may be cut off: fetch or make "
+              "it anew.");
+        const auto has = [this](const std::string &place) {
+          return keywords_.count("xll" + place) +
+                 keywords_.count("yll" + place);
+        };
+        check(
+          has("corner") + has("center") == 2 && has("corner") != 1,
+          " has no place on the map, which an Esri ASCII grid needs: either "
+          "the lines 'xllcorner' and 'yllcorner', or 'xllcenter' and "
+          "'yllcenter'. Correct the head.");
+      }
 
-    unsigned int
-    count(const std::filesystem::path &file,
-          const Header                &header,
-          const std::string           &name)
-    {
-      const double n = required(file, header, {name});
-      AssertThrow(n >= 1. && n == std::floor(n) && n < 1e6,
-                  ExcUser(text("The raster '",
-                               file.string(),
-                               "' has ",
-                               name,
-                               " = ",
-                               n,
-                               ", where a whole number from 1 to a million was "
-                               "expected. Correct it.")));
-      return static_cast<unsigned int>(n);
-    }
+    private:
+      template <typename... Words>
+      void
+      check(const bool success, const Words &...words) const
+      {
+        AssertThrow(success, ExcUser(text(name_, words...)));
+      }
 
+      void
+      check_head(const std::string                   &line,
+                 const std::vector<std::string_view> &words)
+      {
+        static const std::set<std::string> known = {"ncols",
+                                                    "nrows",
+                                                    "xllcorner",
+                                                    "yllcorner",
+                                                    "xllcenter",
+                                                    "yllcenter",
+                                                    "cellsize",
+                                                    "dx",
+                                                    "dy",
+                                                    "nodata_value"};
+        const auto keyword = boost::to_lower_copy(std::string(words[0]));
+        check(words.size() == 2 && known.count(keyword) > 0 &&
+                is_number(words[1]) && keywords_.insert(keyword).second,
+              ", line ",
+              line_,
+              ": '",
+              line.substr(0, 60),
+              "' was found, where a keyword (ncols, nrows, xllcorner, "
+              "yllcorner, xllcenter, yllcenter, cellsize, dx, dy, "
+              "nodata_value; each once) and a number were expected, or a row "
+              "that begins with digits. Correct it.");
+      }
 
+      void
+      check_row(const std::vector<std::string_view> &words)
+      {
+        check(++row_ <= n_rows_,
+              ", line ",
+              line_,
+              ": there is one more row of values, but nrows is ",
+              n_rows_,
+              ". Correct nrows or remove the row.");
+        check(words.size() == n_columns_,
+              ", line ",
+              line_,
+              ": row ",
+              row_,
+              " has ",
+              words.size(),
+              " values, but ncols is ",
+              n_columns_,
+              ". Give one line for each row, with one value for each column, "
+              "separated by blanks.");
+        for (std::size_t c = 0; c < words.size(); ++c)
+          check(is_number(words[c]),
+                ", line ",
+                line_,
+                ": '",
+                words[c],
+                "' was found in column ",
+                c + 1,
+                ", where a number was expected. Correct it.");
+      }
 
-    /// Coordinate of the western or southern edge of the raster: as given, or
-    /// half a cell before the centre of the first cell.
-    double
-    edge(const std::filesystem::path &file,
-         const Header                &header,
-         const std::string           &axis,
-         const double                 cell)
-    {
-      const auto centre = header.find(axis + "llcenter");
-      if (centre != header.end())
-        return centre->second - 0.5 * cell;
-      return required(file, header, {axis + "llcorner"});
-    }
-
-
-
-    double
-    cell_size(const std::filesystem::path &file,
-              const Header                &header,
-              const std::string           &name)
-    {
-      const double size = required(file, header, {name, "cellsize"});
-      AssertThrow(size > 0.,
-                  ExcUser(text("The raster '",
-                               file.string(),
-                               "' has cells of ",
-                               size,
-                               ", where a positive size was expected. Correct "
-                               "it.")));
-      return size;
-    }
-
-
-
-    /// Build the raster without values.
-    Raster
-    georeference(const std::filesystem::path &file, const Header &header)
-    {
-      Raster raster;
-      raster.n_columns = count(file, header, "ncols");
-      raster.n_rows    = count(file, header, "nrows");
-      raster.dx        = cell_size(file, header, "dx");
-      raster.dy        = cell_size(file, header, "dy");
-      raster.west      = edge(file, header, "x", raster.dx);
-      raster.south     = edge(file, header, "y", raster.dy);
-      if (const auto found = header.find("nodata"); found != header.end())
-        raster.nodata = found->second;
-      return raster;
-    }
-
-
-
-    /// Read row number @p row of the raster @p whole, and append the values of
-    /// cells in @p part. Commas are decimal points if blanks separate as many
-    /// entries as there are columns, otherwise separators.
-    void
-    read_row(const Line       &line,
-             const std::size_t row,
-             const Raster     &whole,
-             Raster           &part)
-    {
-      auto words = split(line.content, "");
-      if (words.size() != whole.n_columns ||
-          std::any_of(words.begin(), words.end(), [](const auto word) {
-            return word.back() == ',';
-          }))
-        words = split(line.content, ",");
-      AssertThrow(words.size() == whole.n_columns,
-                  ExcUser(text(line.place(),
-                               "row ",
-                               row + 1,
-                               " has ",
-                               words.size(),
-                               " values, but ncols is ",
-                               whole.n_columns,
-                               ". Give one line for each row, with one value "
-                               "for each column.")));
-      AssertThrow(row < whole.n_rows,
-                  ExcUser(text(line.place(),
-                               "there is one more row of values, but nrows is ",
-                               whole.n_rows,
-                               ". Correct nrows or remove the row.")));
-      const double y = whole.y(row);
-      if (y < part.south || y > part.north())
-        return;
-      const std::size_t first =
-        std::lround((part.west - whole.west) / whole.dx);
-      for (std::size_t c = first; c < first + part.n_columns; ++c)
-        {
-          const auto value = number(words[c]);
-          AssertThrow(value.has_value(),
-                      ExcUser(text(line.place(),
-                                   "'",
-                                   words[c],
-                                   "' was found in column ",
-                                   c + 1,
-                                   ", where a number was expected. Correct "
-                                   "it.")));
-          // A GIS keeps the mark in single precision, and writes 15 digits of
-          // the mark in the head and 17 in the rows.
-          part.values.push_back(float(*value) == float(part.nodata)
-                                  ? std::numeric_limits<double>::quiet_NaN()
-                                  : *value);
-        }
-    }
+      const std::string     name_;
+      const unsigned int    n_columns_, n_rows_;
+      std::set<std::string> keywords_;
+      unsigned int          line_ = 0, row_ = 0; ///< checked so far
+    };
   } // namespace
 
 
 
-  bool
-  is_esri_grid(const std::filesystem::path &file)
+  // GDAL takes a text that is no number for 0, and reads numbers without regard
+  // to lines: a missing number would shift all later ones.
+  void
+  check_esri_grid(const std::filesystem::path &file,
+                  const unsigned int           n_columns,
+                  const unsigned int           n_rows)
   {
-    // A device may have no end, and opening a pipe waits for a writer.
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error))
-      return false;
+    EsriText      content(file, n_columns, n_rows);
     std::ifstream in(file, std::ios::binary);
-    std::string   head(1024, '\0');
-    in.read(head.data(), head.size());
-    head.resize(in.gcount());
-    const std::string no_words = "\xef\xbb\xbf \t\r\n"; // with UTF-8's mark
-    const std::size_t begin    = head.find_first_not_of(no_words);
-    if (begin == std::string::npos)
-      return false;
-    const auto words =
-      split(std::string_view(head).substr(begin,
-                                          head.find('\n', begin) - begin),
-            "=:,");
-    return std::any_of(words.begin(),
-                       words.begin() + std::min<std::size_t>(2, words.size()),
-                       [](const std::string_view word) {
-                         return !keyword(word).empty();
-                       });
-  }
-
-
-
-  // Line by line, not number by number: a missing value in a row must not shift
-  // all later values, since the total number may be right by accident.
-  Raster
-  read_esri_grid(const std::filesystem::path &file, const RasterPart &part)
-  {
-    std::ifstream in(file, std::ios::binary);
-    Line          line{file, 0, ""};
-    Header        header;
-    Raster        whole, result;
-    std::size_t   n_rows = 0;
-    while (std::getline(in, line.content))
-      {
-        ++line.number;
-        if (line.number == 1 && line.content.rfind("\xef\xbb\xbf", 0) == 0)
-          line.content.erase(0, 3); // byte order mark of UTF-8
-        if (line.content.find_first_not_of(" \t\r") == std::string::npos)
-          continue;
-        if (whole.n_columns == 0)
-          {
-            if (read_header_line(line, header))
-              continue;
-            whole  = georeference(file, header);
-            result = part(whole);
-          }
-        read_row(line, n_rows++, whole, result);
-      }
-    AssertThrow(n_rows > 0 && n_rows == whole.n_rows,
-                ExcUser(text("The raster '",
-                             file.string(),
-                             "' has ",
-                             n_rows,
-                             " rows of values, where ",
-                             whole.n_columns == 0
-                               ? "an Esri ASCII grid"
-                               : text(whole.n_rows, " (nrows)"),
-                             " was expected. The file may be cut off: fetch "
-                             "or make it anew.")));
-    return result;
+    for (std::string line; std::getline(in, line);)
+      content.check_line(line);
+    content.check_end();
   }
 
 
@@ -387,6 +205,8 @@ namespace talus
 
 
 
+  // GDAL writes cell sizes with 12 decimals, and two decimals more than needed
+  // or too few of each value.
   void
   write_esri_grid(const std::filesystem::path &file, const Raster &raster)
   {
@@ -402,13 +222,10 @@ namespace talus
             << '\n';
       const std::string nodata = shortest(raster.nodata);
       out << "nodata_value " << nodata << '\n';
-      for (unsigned int r = 0; r < raster.n_rows; ++r)
-        for (unsigned int c = 0; c < raster.n_columns; ++c)
-          {
-            const double value = raster.value(c, r);
-            out << (std::isnan(value) ? nodata : shortest(value))
-                << (c + 1 < raster.n_columns ? ' ' : '\n');
-          }
+      for (std::size_t i = 0; i < raster.values.size(); ++i)
+        out << (std::isnan(raster.values[i]) ? nodata
+                                             : shortest(raster.values[i]))
+            << ((i + 1) % raster.n_columns == 0 ? '\n' : ' ');
     });
   }
 } // namespace talus

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/io/coordinate_system.h>
+#include <talus/io/esri_grid.h>
 #include <talus/io/gdal.h>
 #include <talus/io/gdal_raster.h>
 #include <talus/io/length_unit.h>
@@ -9,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <limits>
 
 #include <gdal_priv.h>
@@ -23,8 +25,11 @@ namespace talus
     GDALDatasetUniquePtr
     open(const std::string &name)
     {
-      // GMT names the axes x and y, without further description.
-      const char *const options[] = {"IGNORE_XY_AXIS_NAME_CHECKS=YES", nullptr};
+      // GMT names the axes x and y, without further description. The numbers of
+      // an Esri ASCII grid are kept in double precision.
+      const char *const options[] = {"IGNORE_XY_AXIS_NAME_CHECKS=YES",
+                                     "DATATYPE=Float64",
+                                     nullptr};
       return GDALDatasetUniquePtr(
         GDALDataset::Open(name.c_str(),
                           GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR,
@@ -34,11 +39,26 @@ namespace talus
 
 
 
-    /// Return the coordinate system of a file. netCDF may give only the unit of
-    /// a coordinate, in an item such as lon#units=degrees_east.
-    std::string
-    coordinate_system(GDALDataset &file)
+    /// Return whether @p file begins with the byte order mark of UTF-8, as
+    /// editors write it.
+    bool
+    has_byte_order_mark(const std::filesystem::path &file)
     {
+      std::string begin(3, ' ');
+      std::ifstream(file, std::ios::binary).read(begin.data(), 3);
+      return begin == "\xef\xbb\xbf";
+    }
+
+
+
+    /// Return the coordinate system of a file; empty for an Esri ASCII grid,
+    /// see systems_beside(). netCDF may give only the unit of a coordinate, in
+    /// an item such as lon#units=degrees_east.
+    std::string
+    coordinate_system(GDALDataset &file, const bool is_esri_grid)
+    {
+      if (is_esri_grid)
+        return "";
       const std::string words = file.GetProjectionRef();
       if (!words.empty())
         return words;
@@ -90,7 +110,8 @@ namespace talus
       const std::filesystem::path path_;
       const QuietGdal             quiet_;
       GDALDatasetUniquePtr        file_;
-      GDALRasterBand             *band_ = nullptr;
+      GDALRasterBand             *band_         = nullptr;
+      bool                        is_esri_grid_ = false;
     };
 
 
@@ -99,7 +120,8 @@ namespace talus
       : path_(path)
     {
       GDALAllRegister();
-      file_ = open(path.string());
+      file_ = open((has_byte_order_mark(path) ? "/vsisubfile/3," : "") +
+                   path.string());
       check(file_ != nullptr,
             text("is no Esri ASCII grid, which begins with ncols or another "
                  "keyword, and GDAL cannot read it (",
@@ -113,6 +135,11 @@ namespace talus
                  " bands, where one band of heights was expected. Extract a "
                  "band: gdal_translate -b 1 IN OUT.tif."));
       band_ = file_->GetRasterBand(1);
+      is_esri_grid_ =
+        file_->GetDriver() != nullptr &&
+        file_->GetDriver()->GetDescription() == std::string("AAIGrid");
+      if (is_esri_grid_)
+        check_esri_grid(path, file_->GetRasterXSize(), file_->GetRasterYSize());
       // netCDF's attribute.
       const char *const sense = band_->GetMetadataItem("positive");
       check(sense == nullptr || std::strcmp(sense, "down") != 0,
@@ -199,11 +226,17 @@ namespace talus
             "has no georeference of evenly spaced cells on the map. "
             "Write the raster anew with a georeference: gdal_translate "
             "-a_ullr WEST NORTH EAST SOUTH IN OUT.tif.");
-      check(t[2] == 0. && t[4] == 0. && t[1] > 0. && t[5] != 0.,
+      check(t[1] > 0. && t[5] != 0.,
+            text("has cells of ",
+                 t[1],
+                 " x ",
+                 t[5],
+                 ", where a positive size was expected. Correct it."));
+      check(t[2] == 0. && t[4] == 0.,
             "lies askew on the map, where rows from west to east were "
             "expected. Turn it: gdalwarp IN OUT.tif.");
       Raster result;
-      result.coordinate_system = coordinate_system(*file_);
+      result.coordinate_system = coordinate_system(*file_, is_esri_grid_);
       result.n_columns         = file_->GetRasterXSize();
       result.n_rows            = file_->GetRasterYSize();
       if (!is_unstated(band_->GetUnitType()))
@@ -251,7 +284,12 @@ namespace talus
       const bool   is_packed = (scale != 1. || offset != 0.);
       int          has_mark  = 0;
       // A file may declare the mark in double and hold it in single precision.
-      const float mark = band_->GetNoDataValue(&has_mark);
+      float mark = band_->GetNoDataValue(&has_mark);
+      if (is_esri_grid_ && !has_mark)
+        {
+          has_mark = 1;
+          mark     = -9999.f; // by Esri's definition
+        }
       for (std::size_t i = 0; i < result.size(); ++i)
         if (is_known[i] == 0 || (has_mark && float(result[i]) == mark))
           result[i] = std::numeric_limits<double>::quiet_NaN();

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 
 #include <cpl_vsi.h>
 #include <gdal_frmts.h>
@@ -17,36 +18,6 @@ namespace talus
 
   namespace
   {
-    /// File in the memory of this process: write_file() then brings the content
-    /// to the disk like all output.
-    class FileInMemory
-    {
-    public:
-      FileInMemory()
-      {
-        VSIUnlink(name);
-      }
-      ~FileInMemory()
-      {
-        VSIUnlink(name);
-      }
-      FileInMemory(const FileInMemory &) = delete;
-      FileInMemory &
-      operator=(const FileInMemory &) = delete;
-
-      std::string
-      content() const
-      {
-        vsi_l_offset      n     = 0;
-        const auto *const bytes = VSIGetMemFileBuffer(name, &n, false);
-        return {reinterpret_cast<const char *>(bytes), std::size_t(n)};
-      }
-
-      static constexpr const char *name = "/vsimem/talus.tif";
-    };
-
-
-
     /// Write frame and values into @p dataset and return whether GDAL
     /// succeeded. Rows of the raster and of the GeoTIFF begin in the north.
     bool
@@ -101,13 +72,15 @@ namespace talus
   write_geotiff(const std::filesystem::path &file, const Raster &raster)
   {
     check_geotiff(raster.coordinate_system);
-    const QuietGdal    quiet;
-    const FileInMemory memory;
+    const QuietGdal quiet;
     GDALRegister_GTiff();
+    // In the memory of this process: write_file() then brings the content to
+    // the disk like all output.
+    const char *const    name      = "/vsimem/talus.tif";
     const char *const    options[] = {"COMPRESS=DEFLATE", nullptr};
     GDALDatasetUniquePtr dataset(
       GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
-        memory.name,
+        name,
         raster.n_columns,
         raster.n_rows,
         1,
@@ -117,6 +90,11 @@ namespace talus
     dataset.reset(); // completes the file
     AssertThrow(is_filled && CPLGetLastErrorType() < CE_Failure,
                 ExcUser(failed_write(file, CPLGetLastErrorMsg())));
-    write_file(file, [&](std::ostream &out) { out << memory.content(); });
+    vsi_l_offset                                     n = 0;
+    const std::unique_ptr<GByte, decltype(&VSIFree)> content(
+      VSIGetMemFileBuffer(name, &n, true), &VSIFree);
+    write_file(file, [&](std::ostream &out) {
+      out.write(reinterpret_cast<const char *>(content.get()), n);
+    });
   }
 } // namespace talus

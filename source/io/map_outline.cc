@@ -1,45 +1,157 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/io/coordinate_system.h>
-#include <talus/io/esri_grid.h>
-#include <talus/io/gdal_features.h>
-#include <talus/io/geojson.h>
+#include <talus/io/gdal.h>
 #include <talus/io/map_outline.h>
 #include <talus/io/raster_file.h>
+#include <talus/io/text_file.h>
+
+#include <regex>
+
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
 
 namespace talus
 {
   using namespace dealii;
 
-  bool
-  is_outline_file(const std::filesystem::path &file)
-  {
-    std::error_code error;
-    return is_geojson(file) || (std::filesystem::is_regular_file(file, error) &&
-                                !is_esri_grid(file) && has_gdal_features(file));
-  }
-
-
-
   namespace
   {
-    MapFeatures
-    read_features(const std::filesystem::path &file)
+    using Corners = std::vector<Point<2>>;
+
+    /// All polygons and lines of a GIS file.
+    struct MapFeatures
     {
-      MapFeatures found =
-        is_geojson(file) ? read_geojson(file) : read_gdal_features(file);
+      /// Each polygon is a list of rings, the outer one first.
+      std::vector<std::vector<Corners>> polygons;
+      std::vector<Corners>              lines;
+      /// As Raster::coordinate_system.
+      std::string coordinate_system;
+    };
+
+
+
+    Corners
+    corners_of(const OGRSimpleCurve &curve)
+    {
+      Corners corners;
+      for (const OGRPoint &corner : curve)
+        corners.emplace_back(corner.getX(), corner.getY());
+      return corners;
+    }
+
+
+
+    /// Append the polygons and lines of a geometry and its parts.
+    void
+    collect(const OGRGeometry &geometry, MapFeatures &result)
+    {
+      if (wkbFlatten(geometry.getGeometryType()) == wkbPolygon)
+        {
+          auto &polygon = result.polygons.emplace_back();
+          for (const OGRLinearRing *ring : *geometry.toPolygon())
+            polygon.push_back(corners_of(*ring));
+        }
+      else if (wkbFlatten(geometry.getGeometryType()) == wkbLineString)
+        result.lines.push_back(corners_of(*geometry.toLineString()));
+      else if (OGR_GT_IsSubClassOf(geometry.getGeometryType(),
+                                   wkbGeometryCollection))
+        for (const OGRGeometry *part : *geometry.toGeometryCollection())
+          collect(*part, result);
+    }
+
+
+
+    /// Append the polygons and lines of a layer, curved edges as many short
+    /// edges. A layer with any of them sets the coordinate system.
+    void
+    collect(OGRLayer &layer, MapFeatures &result)
+    {
+      const auto n = [&result]() {
+        return result.polygons.size() + result.lines.size();
+      };
+      const std::size_t n_before = n();
+      for (const OGRFeatureUniquePtr &feature : layer)
+        if (const OGRGeometry *geometry = feature->GetGeometryRef())
+          collect(*std::unique_ptr<OGRGeometry>(geometry->getLinearGeometry()),
+                  result);
+      if (n() > n_before)
+        result.coordinate_system = layer.GetSpatialRef() == nullptr
+                                     ? ""
+                                     : export_to_text(*layer.GetSpatialRef());
+    }
+
+
+
+    /// Return the coordinate system that a GeoJSON file names; GDAL takes a
+    /// name that it does not know for WGS 84. Empty without a name.
+    std::string
+    name_in_geojson(const std::filesystem::path &file)
+    {
+      const std::string words = read_text_file(file).value_or("");
+      const std::size_t begin = words.find("\"crs\"");
+      if (begin == std::string::npos)
+        return "";
+      std::smatch       parts;
+      const std::string member = words.substr(begin, 500);
+      const std::regex  name(
+        R"re("crs"\s*:\s*\{[^{}]*\{\s*"name"\s*:\s*"([^"]*)")re");
+      return std::regex_search(member, parts, name) ? parts.str(1) : "";
+    }
+
+
+
+    /// Read the polygons and lines of all layers of a file.
+    MapFeatures
+    read_features(const std::filesystem::path &path)
+    {
+      const QuietGdal quiet;
+      GDALAllRegister();
+      const std::string          name = "The file '" + path.string() + "'";
+      const GDALDatasetUniquePtr file(
+        std::filesystem::is_fifo(path)
+          ? nullptr
+          : GDALDataset::Open(path.c_str(),
+                              GDAL_OF_VECTOR | GDAL_OF_VERBOSE_ERROR));
+      AssertThrow(file != nullptr,
+                  ExcUser(
+                    text(name,
+                         " cannot be read (",
+                         CPLGetLastErrorMsg(),
+                         "). Give the path of an existing file of vectors "
+                         "(GeoJSON, shapefile, GeoPackage, KML).")));
+      MapFeatures result;
+      for (OGRLayer *layer : file->GetLayers())
+        collect(*layer, result);
+      if (file->GetDriver()->GetDescription() == std::string("GeoJSON"))
+        check_understood(name_in_geojson(path), name);
       // GDAL leaves out a system that it does not understand.
-      if (found.coordinate_system.empty())
-        found.coordinate_system = systems_beside(file).coordinate_system;
-      check_understood(found.coordinate_system,
-                       "The file '" + file.string() + "'");
-      return found;
+      if (result.coordinate_system.empty())
+        result.coordinate_system = systems_beside(path).coordinate_system;
+      check_understood(result.coordinate_system, name);
+      return result;
     }
   } // namespace
 
 
 
-  MapOutline
+  bool
+  is_outline_file(const std::filesystem::path &file)
+  {
+    const QuietGdal quiet;
+    GDALAllRegister();
+    std::error_code error;
+    const auto      is_readable = [&file](const unsigned int kind) {
+      return GDALDatasetUniquePtr(GDALDataset::Open(file.c_str(), kind)) !=
+             nullptr;
+    };
+    return std::filesystem::is_regular_file(file, error) &&
+           !is_readable(GDAL_OF_RASTER) && is_readable(GDAL_OF_VECTOR);
+  }
+
+
+
+  MapCorners
   read_outline(const std::filesystem::path &file)
   {
     const MapFeatures found = read_features(file);
@@ -57,7 +169,7 @@ namespace talus
                        found.polygons[0].size(),
                        " rings, where one was expected: the outline, without "
                        "holes. Remove the holes.")));
-    MapOutline outline{found.polygons[0][0], found.coordinate_system};
+    MapCorners outline{found.polygons[0][0], found.coordinate_system};
     if (outline.corners.size() > 1 &&
         outline.corners.front() == outline.corners.back())
       outline.corners.pop_back();
@@ -66,7 +178,7 @@ namespace talus
 
 
 
-  MapLine
+  MapCorners
   read_line(const std::filesystem::path &file)
   {
     const MapFeatures found = read_features(file);

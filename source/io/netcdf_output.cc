@@ -13,24 +13,22 @@ namespace talus
 
   namespace
   {
-    using Dimensions = std::vector<std::shared_ptr<GDALDimension>>;
+    using Axes = std::vector<std::shared_ptr<GDALDimension>>;
 
     /// File under construction, by GDAL's model of arrays in several
-    /// dimensions. A step that fails leaves GDAL's error message.
+    /// dimensions. Throws ExcUser, naming @p file, if GDAL fails.
     class NetcdfFile
     {
     public:
-      explicit NetcdfFile(const std::filesystem::path &path)
-      {
-        GDALAllRegister();
-        GDALDriver *const driver =
-          GetGDALDriverManager()->GetDriverByName("netCDF");
-        if (driver != nullptr)
-          dataset_.reset(
-            driver->CreateMultiDimensional(path.c_str(), nullptr, nullptr));
-        if (dataset_ != nullptr)
-          root_ = dataset_->GetRootGroup();
-      }
+      NetcdfFile(const std::filesystem::path &part,
+                 const std::filesystem::path &file)
+        : file_(file)
+        , dataset_(required(
+            GetGDALDriverManager()
+              ->GetDriverByName("netCDF")
+              ->CreateMultiDimensional(part.c_str(), nullptr, nullptr)))
+        , root_(dataset_->GetRootGroup())
+      {}
 
       /// Add a dimension with the variable of the same name.
       std::shared_ptr<GDALDimension>
@@ -38,89 +36,79 @@ namespace talus
                const std::string         &unit,
                const std::vector<double> &values)
       {
-        const auto dimension =
-          root_ ? root_->CreateDimension(name, "", "", values.size()) : nullptr;
-        if (const auto variable = add_variable(name, unit, {dimension}))
-          write(*variable, {0}, {values.size()}, values);
-        return dimension;
+        const auto axis =
+          required(root_->CreateDimension(name, "", "", values.size()));
+        write(*add_variable(name, unit, {axis}), {0}, {values.size()}, values);
+        return axis;
       }
 
       std::shared_ptr<GDALMDArray>
       add_variable(const std::string &name,
                    const std::string &unit,
-                   const Dimensions  &dimensions)
+                   const Axes        &axes)
       {
-        for (const auto &dimension : dimensions)
-          if (dimension == nullptr)
-            return nullptr;
-        const auto variable =
-          root_->CreateMDArray(name,
-                               dimensions,
-                               GDALExtendedDataType::Create(GDT_Float64));
-        if (variable != nullptr)
-          variable->SetUnit(unit);
+        const auto variable = required(root_->CreateMDArray(name, axes, type_));
+        variable->SetUnit(unit);
         return variable;
       }
 
-      static bool
+      void
       write(GDALMDArray                &variable,
             const std::vector<GUInt64> &start,
             const std::vector<size_t>  &count,
             const std::vector<double>  &values)
       {
-        return variable.Write(start.data(),
-                              count.data(),
-                              nullptr,
-                              nullptr,
-                              GDALExtendedDataType::Create(GDT_Float64),
-                              values.data());
+        required(variable.Write(
+          start.data(), count.data(), nullptr, nullptr, type_, values.data()));
       }
 
     private:
+      template <typename Result>
+      Result
+      required(Result result) const
+      {
+        AssertThrow(result, ExcUser(failed_write(file_, CPLGetLastErrorMsg())));
+        return result;
+      }
+
+      const std::filesystem::path &file_;
+      const GDALExtendedDataType   type_ =
+        GDALExtendedDataType::Create(GDT_Float64);
       GDALDatasetUniquePtr       dataset_;
       std::shared_ptr<GDALGroup> root_;
     };
 
 
 
-    /// Write rows from south to north, against the order of Raster. Return
-    /// whether GDAL succeeded.
-    bool
-    write_blocks(NetcdfFile &file, const SurfaceMotion &motion)
+    /// Write rows from south to north, against the order of Raster.
+    void
+    write_blocks(NetcdfFile file, const SurfaceMotion &motion)
     {
-      const Raster       &frame = motion.frame;
+      const Raster       &frame      = motion.frame;
+      const bool          in_degrees = frame.coordinate_system == wgs_84;
       std::vector<double> x, y, time;
       for (unsigned int i = 0; i < frame.n_columns; ++i)
         x.push_back(frame.x(i));
-      for (unsigned int j = 0; j < frame.n_rows; ++j)
-        y.push_back(frame.y(frame.n_rows - 1 - j));
+      for (unsigned int j = frame.n_rows; j-- > 0;)
+        y.push_back(frame.y(j));
       for (unsigned int k = 0; k < motion.n_blocks; ++k)
         time.push_back(motion.start_time + k * motion.interval);
-      const auto t_axis     = file.add_axis("time", "s", time);
-      const bool in_degrees = frame.coordinate_system == wgs_84;
-      const auto y_axis     = file.add_axis(in_degrees ? "lat" : "y",
-                                        in_degrees ? "degrees_north" : "m",
-                                        y);
-      const auto x_axis = file.add_axis(in_degrees ? "lon" : "x",
-                                        in_degrees ? "degrees_east" : "m",
-                                        x);
-      const auto variable =
-        file.add_variable("dz", "m", {t_axis, y_axis, x_axis});
-      if (variable == nullptr)
-        return false;
+      const auto t_axis = file.add_axis("time", "s", time);
+      const auto y_axis = in_degrees ? file.add_axis("lat", "degrees_north", y)
+                                     : file.add_axis("y", "m", y);
+      const auto x_axis = in_degrees ? file.add_axis("lon", "degrees_east", x)
+                                     : file.add_axis("x", "m", x);
+      const auto dz = file.add_variable("dz", "m", {t_axis, y_axis, x_axis});
       for (unsigned int k = 0; k < motion.n_blocks; ++k)
         {
-          const std::vector<double> from_north = motion.change(k);
-          std::vector<double>       values;
-          for (unsigned int j = frame.n_rows; j-- > 0;)
-            values.insert(values.end(),
-                          from_north.begin() + j * frame.n_columns,
-                          from_north.begin() + (j + 1) * frame.n_columns);
-          if (!file.write(
-                *variable, {k, 0, 0}, {1, y.size(), x.size()}, values))
-            return false;
+          std::vector<double> values = motion.change(k);
+          for (unsigned int j = 0; j < frame.n_rows; ++j)
+            file.write(*dz,
+                       {k, frame.n_rows - 1 - j, 0},
+                       {1, 1, x.size()},
+                       {values.begin() + j * x.size(),
+                        values.begin() + (j + 1) * x.size()});
         }
-      return true;
     }
   } // namespace
 
@@ -145,16 +133,12 @@ namespace talus
     check_netcdf();
     check_not_input(file);
     const QuietGdal             quiet;
-    const std::filesystem::path part       = file.string() + ".part";
-    bool                        is_written = false;
-    {
-      NetcdfFile output(part);
-      is_written = write_blocks(output, motion);
-    } // closes the file
+    const std::filesystem::path part = file.string() + ".part";
+    write_blocks(NetcdfFile(part, file), motion); // closes the file
     std::error_code error;
-    if (is_written && CPLGetLastErrorType() < CE_Failure)
+    if (CPLGetLastErrorType() < CE_Failure)
       std::filesystem::rename(part, file, error);
-    AssertThrow(is_written && CPLGetLastErrorType() < CE_Failure && !error,
+    AssertThrow(CPLGetLastErrorType() < CE_Failure && !error,
                 ExcUser(failed_write(
                   file, error ? error.message() : CPLGetLastErrorMsg())));
   }

@@ -7,7 +7,6 @@
 #include <talus/io/length_unit.h>
 #include <talus/io/raster_file.h>
 #include <talus/io/text_file.h>
-#include <talus/io/utm_zone.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -18,7 +17,6 @@
 #include <fstream>
 #include <sstream>
 #include <string>
-#include <vector>
 
 namespace talus
 {
@@ -132,52 +130,6 @@ namespace talus
                                " m, where a map of the Earth in metres was "
                                "expected. Correct its head.")));
     }
-
-
-
-    /// Return @p size rounded to one significant digit.
-    double
-    rounded(const double size)
-    {
-      const double digit = std::pow(10., std::floor(std::log10(size)));
-      return digit * std::round(size / digit);
-    }
-
-
-
-    /// Return the command that projects a raster to @p map, a code of EPSG,
-    /// with the same cell size.
-    std::string
-    command(const std::filesystem::path &file,
-            const Raster                &raster,
-            const std::string           &map)
-    {
-      const MapUnit unit = map_unit(raster.coordinate_system);
-      // A degree of latitude is 111 km.
-      const double size =
-        rounded(unit == MapUnit::metres ? raster.dy : 111e3 * raster.dy);
-      return text("gdalwarp ",
-                  raster.coordinate_system.empty() ? "-s_srs " + wgs_84 + " "
-                                                   : "",
-                  "-t_srs ",
-                  map,
-                  unit == MapUnit::other ? "" : text(" -tr ", size, ' ', size),
-                  " -r cubic ",
-                  for_shell(file.string()),
-                  " out.tif && gdal_translate -of AAIGrid out.tif out.asc");
-    }
-
-
-
-    /// Return the UTM zone at the middle of the raster.
-    UtmZone
-    zone_of(const Raster &raster)
-    {
-      std::vector<Point<2>> middle = {raster.middle()};
-      if (map_unit(raster.coordinate_system) == MapUnit::other)
-        MapTransformation(raster.coordinate_system, wgs_84).transform(middle);
-      return utm_zone(middle[0][0], middle[0][1]);
-    }
   } // namespace
 
 
@@ -214,8 +166,7 @@ namespace talus
         }
       return part(whole);
     };
-    Raster       raster = is_esri_grid(file) ? read_esri_grid(file, placed)
-                                             : read_gdal_raster(file, placed);
+    Raster       raster = read_gdal_raster(file, placed);
     const double unit   = unit_of_heights(file, raster);
     check_magnitudes(file, raster, unit);
     if (unit != 1.)
@@ -228,36 +179,25 @@ namespace talus
 
 
   void
-  check_projection(const std::filesystem::path &file,
-                   const Raster                &raster,
-                   const std::string           &map)
+  check_in_metres(const std::filesystem::path &file, const Raster &raster)
   {
     const MapUnit unit = map_unit(raster.coordinate_system);
-    if (map.empty() ? (unit == MapUnit::metres || unit == MapUnit::unknown)
-                    : is_built_with_gdal())
+    if (unit == MapUnit::metres || unit == MapUnit::unknown)
       return;
-    const UtmZone     zone   = zone_of(raster);
-    const std::string target = map.empty() ? zone.epsg_code() : map;
-    AssertThrow(
-      false,
-      ExcUser(
-        text("The raster '",
-             file.string(),
-             unit == MapUnit::other ? "' is not in metres" : "' is in degrees",
-             ": its cells are ",
-             raster.dx,
-             " wide, and it reaches from ",
-             raster.west,
-             " to ",
-             raster.east(),
-             ". A map in metres was expected. ",
-             is_built_with_gdal()
-               ? "Set `Projection` = " + zone.name() +
-                   ", or project the raster yourself: "
-               : "Project the raster yourself, and remove a `Projection` "
-                 "(this talus was built without GDAL, which the entry "
-                 "needs): ",
-             command(file, raster, target),
-             ".")));
+    AssertThrow(false,
+                ExcUser(
+                  text("The raster '",
+                       file.string(),
+                       unit == MapUnit::other ? "' is not in metres"
+                                              : "' is in degrees",
+                       ": its cells are ",
+                       raster.dx,
+                       " wide, and it reaches from ",
+                       raster.west,
+                       " to ",
+                       raster.east(),
+                       ". A map in metres was expected. Set `Projection` = ",
+                       utm_zone(raster.middle(), raster.coordinate_system),
+                       ", or project the raster yourself by gdalwarp.")));
   }
 } // namespace talus

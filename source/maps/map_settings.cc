@@ -22,7 +22,7 @@ namespace talus
                   writes_geotiff_,
                   "3-D only: write each raster of the maps as GeoTIFF, too, "
                   "with the coordinate system of the raster that defines the "
-                  "cells. Needs talus built with GDAL.");
+                  "cells.");
     add_parameter("Raster",
                   raster_,
                   "3-D only: name of the surface whose raster defines the "

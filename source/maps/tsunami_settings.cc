@@ -18,14 +18,12 @@ namespace talus
       "dtopo, type 3) and tsunami-source.csv.");
     add_parameter("Write netCDF",
                   writes_netcdf_,
-                  "Write the same numbers as tsunami-source.nc, too. Needs "
-                  "talus built with GDAL.");
+                  "Write the same numbers as tsunami-source.nc, too.");
     add_parameter("Coordinates",
                   coordinates_,
                   "Coordinates of the source: those of the 'map', m, or "
                   "'degrees', longitude and latitude in WGS 84. Degrees need "
-                  "a 3-D mesh on a raster with a coordinate system, and talus "
-                  "built with GDAL.",
+                  "a 3-D mesh on a raster with a coordinate system.",
                   this->prm,
                   Patterns::Selection("map|degrees"));
     add_parameter("Interval",

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/geometry/corner_list.h>
 #include <talus/geometry/outline_surface.h>
 #include <talus/geometry/terrain.h>
 #include <talus/io/coordinate_system.h>
 #include <talus/io/files.h>
 #include <talus/io/map_outline.h>
 #include <talus/io/raster_file.h>
-#include <talus/io/utm_zone.h>
 #include <talus/terrain/bring_to_map.h>
 #include <talus/terrain/named_surface.h>
 #include <talus/terrain/plan_place.h>
@@ -32,13 +32,12 @@ namespace talus
   {
     add_parameter("File",
                   file_,
-                  "Raster of heights, from the folder of this file: an Esri "
-                  "ASCII grid or, if talus was built with GDAL, any format "
-                  "that GDAL reads (GeoTIFF, netCDF as GEBCO and GMT write "
-                  "it); in metres, or with a `Projection`. In 3-D x is the "
-                  "easting and -z the northing, from 'Grid/Origin' on. Or, 3-D "
-                  "only, the polygon of a GeoJSON file or, with GDAL, of any "
-                  "file of vectors (shapefile, GeoPackage, KML), as an "
+                  "Raster of heights, from the folder of this file, in any "
+                  "format that GDAL reads (GeoTIFF, Esri ASCII grid, netCDF as "
+                  "GEBCO and GMT write it); in metres, or with a `Projection`. "
+                  "In 3-D x is the easting and -z the northing, from "
+                  "'Grid/Origin' on. Or, 3-D only, the polygon of any file of "
+                  "vectors (GeoJSON, shapefile, GeoPackage, KML), as an "
                   "`Outline`.");
     add_parameter("Projection",
                   projection_,
@@ -46,8 +45,8 @@ namespace talus
                   "and which is the map of 'Grid/Origin' and `Section`: zone "
                   "and hemisphere as UTM 33N or UTM 33S, or a code of the "
                   "EPSG registry as EPSG:3575. A file without a coordinate "
-                  "system is then taken to be in degrees (WGS 84). Needs "
-                  "talus built with GDAL. Empty: the file is in metres.");
+                  "system is then taken to be in degrees (WGS 84). "
+                  "Empty: the file is in metres.");
     add_parameter("Cell size",
                   cell_size_,
                   "Cell size of the projected raster on the map of "
@@ -120,30 +119,13 @@ namespace talus
   std::vector<Point<2>>
   NamedSurface<dim>::section() const
   {
-    std::vector<Point<2>> corners;
-    for (const auto &corner : Utilities::split_string_list(section_, ';'))
-      {
-        const auto numbers = Utilities::split_string_list(corner, ',');
-        // Squares of larger numbers would overflow.
-        const Patterns::Double number(-1e9, 1e9);
-        AssertThrow(
-          numbers.size() == 2 && number.match(numbers[0]) &&
-            number.match(numbers[1]),
-          ExcUser(text(path("Section"),
-                       " contains '",
-                       corner,
-                       "', where two numbers 'easting,northing' of "
-                       "at most 1e9 m were expected; corners are separated by "
-                       "semicolons.")));
-        const Point<2> x(Utilities::string_to_double(numbers[0]),
-                         Utilities::string_to_double(numbers[1]));
-        AssertThrow(corners.empty() || x.distance(corners.back()) > 0.,
-                    ExcUser(text(path("Section"),
-                                 " lists '",
-                                 corner,
-                                 "' twice in a row. Remove one.")));
-        corners.push_back(x);
-      }
+    const auto corners = parse_corners(path("Section"), section_);
+    for (std::size_t i = 1; i < corners.size(); ++i)
+      AssertThrow(corners[i] != corners[i - 1],
+                  ExcUser(text(path("Section"),
+                               " lists '",
+                               corners[i],
+                               "' twice in a row. Remove one.")));
     AssertThrow(dim == 3 || corners.size() >= 2,
                 ExcUser(text(path("Section"),
                              " = '",
@@ -163,17 +145,7 @@ namespace talus
   std::string
   NamedSurface<dim>::map() const
   {
-    if (projection_.empty())
-      return "";
-    const std::string map = epsg_code(path("Projection"), projection_);
-    AssertThrow(!is_built_with_gdal() || map_unit(map) == MapUnit::metres,
-                ExcUser(text(path("Projection"),
-                             " = '",
-                             projection_,
-                             "' is no map that GDAL knows whose easting and "
-                             "northing are in metres. Give a projected "
-                             "coordinate system, such as UTM 33N.")));
-    return map;
+    return projection_.empty() ? "" : map_code(path("Projection"), projection_);
   }
 
 
@@ -202,7 +174,8 @@ namespace talus
                                " rows and ",
                                whole.n_columns,
                                " columns, but a surface needs two of both.")));
-      check_projection(file, whole, map);
+      if (map.empty())
+        check_in_metres(file, whole);
       return part_around(whole, plan, map);
     });
     return map.empty()
@@ -217,45 +190,11 @@ namespace talus
 
   template <>
   std::shared_ptr<const Surface<2>>
-  NamedSurface<2>::read_outline(const Point<3> & /*origin*/) const
+  NamedSurface<2>::read_outline(const std::filesystem::path & /*file*/,
+                                const Point<3> & /*origin*/) const
   {
     AssertThrow(false,
-                ExcUser(text(path("Outline"),
-                             " is given, but the simulation is "
-                             "two-dimensional, where there is no area in plan. "
-                             "Limit the surface by an expression in x.")));
-    return nullptr;
-  }
-
-
-
-  template <>
-  std::shared_ptr<const Surface<3>>
-  NamedSurface<3>::read_outline(const Point<3> &origin) const
-  {
-    std::vector<Point<2>> corners;
-    for (const auto &place : Utilities::split_string_list(outline_, ';'))
-      {
-        const Point<3> x = parse_plan_place<3>(
-          "Surfaces/" + name_ + "/Outline",
-          place,
-          PlaceCoordinates("Surfaces/" + name_, coordinates_, 3, origin).kind(),
-          origin);
-        corners.emplace_back(x[0], x[2]);
-      }
-    return std::make_shared<OutlineSurface>("The outline in " + path("Outline"),
-                                            corners);
-  }
-
-
-
-  template <>
-  std::shared_ptr<const Surface<2>>
-  NamedSurface<2>::read_outline_file(const std::filesystem::path & /*file*/,
-                                     const Point<3> & /*origin*/) const
-  {
-    AssertThrow(false,
-                ExcUser(text(path("File"),
+                ExcUser(text(path(outline_.empty() ? "File" : "Outline"),
                              " is the outline of an area in plan, but the "
                              "simulation is two-dimensional. Limit the surface "
                              "by an expression in x.")));
@@ -266,21 +205,36 @@ namespace talus
 
   template <>
   std::shared_ptr<const Surface<3>>
-  NamedSurface<3>::read_outline_file(const std::filesystem::path &file,
-                                     const Point<3>              &origin) const
+  NamedSurface<3>::read_outline(const std::filesystem::path &file,
+                                const Point<3>              &origin) const
   {
-    protect_input(file);
-    MapOutline outline = talus::read_outline(file);
-    bring_to_map(outline.corners,
-                 outline.coordinate_system,
-                 map(),
-                 "The outline '" + file_ + "'",
-                 path("Projection"));
-    const PlaceCoordinates on_map(PlanCoordinates::map, origin);
-    for (Point<2> &corner : outline.corners)
-      corner = on_map.in_plan(corner);
-    return std::make_shared<OutlineSurface>("The outline '" + file_ + "'",
-                                            outline.corners);
+    const std::string     entry = "Surfaces/" + name_;
+    std::string           name  = "The outline in " + path("Outline");
+    std::vector<Point<2>> corners;
+    for (const auto &place : Utilities::split_string_list(outline_, ';'))
+      {
+        const Point<3> x = parse_plan_place<3>(
+          entry + "/Outline",
+          place,
+          PlaceCoordinates(entry, coordinates_, 3, origin).kind(),
+          origin);
+        corners.emplace_back(x[0], x[2]);
+      }
+    if (outline_.empty())
+      {
+        protect_input(file);
+        name               = "The outline '" + file_ + "'";
+        MapCorners outline = talus::read_outline(file);
+        bring_to_map(outline.corners,
+                     outline.coordinate_system,
+                     map(),
+                     name,
+                     path("Projection"));
+        for (const Point<2> &corner : outline.corners)
+          corners.push_back(
+            PlaceCoordinates(PlanCoordinates::map, origin).in_plan(corner));
+      }
+    return std::make_shared<OutlineSurface>(name, corners);
   }
 
 
@@ -359,10 +313,8 @@ namespace talus
                           const Box<dim>              &mesh,
                           const double                 cell_size) const
   {
-    if (!outline_.empty())
-      return read_outline(origin);
-    if (is_outline_file(file(folder)))
-      return read_outline_file(file(folder), origin);
+    if (!outline_.empty() || is_outline_file(file(folder)))
+      return read_outline(file(folder), origin);
     const auto corners = section();
     Raster     raster = read_file(file(folder), plan_of(mesh, origin, corners));
     smooth(raster, cell_size);

@@ -2,13 +2,9 @@
 #include <talus/base/errors.h>
 #include <talus/geometry/height_field.h>
 #include <talus/io/coordinate_system.h>
-#include <talus/io/utm_zone.h>
 #include <talus/terrain/project_raster.h>
 
-#include <deal.II/base/numbers.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -29,68 +25,32 @@ namespace talus
 
 
 
-    /// Return the distance between two close places, longitude and latitude, on
-    /// the ellipsoid of WGS 84, by the radii of curvature along the meridian
-    /// and across (@cite snyder1987, eqs. 4-18, 4-20), m.
-    double
-    length_on_ellipsoid(const Point<2> &from, const Point<2> &to)
-    {
-      constexpr double a = 6378137., e2 = 6.69437999014e-3;
-      const double     radian   = numbers::PI / 180.;
-      const double     latitude = 0.5 * (from[1] + to[1]) * radian;
-      const double     sine     = std::sin(latitude);
-      const double     w        = 1. - e2 * sine * sine;
-      const double     across   = a / std::sqrt(w) * std::cos(latitude);
-      const double     along    = a * (1. - e2) / (w * std::sqrt(w));
-      return std::hypot(std::remainder(to[0] - from[0], 360.) * radian * across,
-                        (to[1] - from[1]) * radian * along);
-    }
-
-
-
-    /// Transformations between a raster, a map and degrees.
-    struct ToMap
-    {
-      ToMap(const Raster &raster, const std::string &map)
-        : to_map(raster.coordinate_system, map)
-        , from_map(map, raster.coordinate_system)
-        , to_degrees(raster.coordinate_system, wgs_84)
-      {}
-
-      const MapTransformation to_map, from_map, to_degrees;
-    };
-
-
-
     /// Return the sizes of a cell at each of @p places of the raster.
     std::vector<CellSize>
     cell_sizes(const Raster                &raster,
-               const ToMap                 &transformation,
+               const std::string           &map,
                const std::vector<Point<2>> &places)
     {
-      const std::array<Tensor<1, 2>, 2> steps = {
-        {Point<2>(0.5 * raster.dx, 0.), Point<2>(0., 0.5 * raster.dy)}};
-      std::vector<Point<2>> on_map;
+      constexpr double      inf = std::numeric_limits<double>::infinity();
+      std::vector<Point<2>> ends;
       for (const Point<2> &place : places)
-        for (const auto &step : steps)
-          for (const double sign : {-1., 1.})
-            on_map.push_back(place + sign * step);
-      std::vector<Point<2>> on_globe = on_map;
-      transformation.to_map.transform(on_map);
-      transformation.to_degrees.transform(on_globe);
-      std::vector<CellSize> result(places.size(),
-                                   {std::numeric_limits<double>::max(), 0.});
-      for (std::size_t i = 0; i < on_map.size(); i += 2)
+        for (const auto &step :
+             {Point<2>(0.5 * raster.dx, 0.), Point<2>(0., 0.5 * raster.dy)})
+          {
+            ends.push_back(Point<2>(place - step));
+            ends.push_back(place + step);
+          }
+      const auto truth = lengths_on_earth(ends, raster.coordinate_system);
+      MapTransformation(raster.coordinate_system, map).transform(ends);
+      std::vector<CellSize> result(places.size(), {inf, 0.});
+      for (std::size_t i = 0; i < truth.size(); ++i)
         {
-          const double length = on_map[i].distance(on_map[i + 1]);
-          const double truth =
-            length_on_ellipsoid(on_globe[i], on_globe[i + 1]);
-          const double error = std::isfinite(length) && std::isfinite(truth)
-                                 ? std::abs(length / truth - 1.)
-                                 : std::numeric_limits<double>::infinity();
-          CellSize    &size  = result[i / 4];
-          size.on_map        = std::min(size.on_map, length);
-          size.too_long      = std::max(size.too_long, error);
+          const double length = ends[2 * i].distance(ends[2 * i + 1]);
+          const double error  = std::abs(length / truth[i] - 1.);
+          CellSize    &size   = result[i / 2];
+          size.on_map         = std::min(size.on_map, length);
+          size.too_long =
+            std::isfinite(error) ? std::max(size.too_long, error) : inf;
         }
       return result;
     }
@@ -142,30 +102,38 @@ namespace talus
 
     void
     check_scale(const Raster                &raster,
-                const ToMap                 &transformation,
+                const std::string           &map,
                 const std::vector<Point<2>> &places,
                 const std::string           &place)
     {
-      const auto            sizes = cell_sizes(raster, transformation, places);
-      std::vector<Point<2>> on_globe = places;
-      on_globe.push_back(raster.middle());
-      transformation.to_degrees.transform(on_globe);
+      const auto sizes = cell_sizes(raster, map, places);
       for (std::size_t i = 0; i < places.size(); ++i)
         AssertThrow(
           sizes[i].too_long <= 0.01,
           ExcUser(text(place,
-                       " projects a raster whose lengths would be "
-                       "wrong by ",
+                       " projects a raster whose lengths would be wrong by ",
                        100. * sizes[i].too_long,
-                       " % at longitude ",
-                       on_globe[i][0],
-                       ", latitude ",
-                       on_globe[i][1],
-                       ", where at most 1 % was expected. Choose "
-                       "another map (in its middle the raster is "
-                       "in the zone ",
-                       utm_zone(on_globe.back()[0], on_globe.back()[1]).name(),
+                       " % at its place (",
+                       places[i],
+                       "), where at most 1 % was expected. Choose another map "
+                       "(in its middle the raster is in the zone ",
+                       utm_zone(raster.middle(), raster.coordinate_system),
                        "), or cut out the part you need.")));
+    }
+
+
+
+    /// Transform places of a map to the coordinates of @p raster, whose
+    /// longitudes may count from 0 to 360.
+    void
+    bring_to_raster(std::vector<Point<2>>   &places,
+                    const MapTransformation &from_map,
+                    const Raster            &raster)
+    {
+      from_map.transform(places);
+      if (map_unit(raster.coordinate_system) == MapUnit::degrees)
+        for (Point<2> &x : places)
+          x[0] += 360. * std::round((raster.middle()[0] - x[0]) / 360.);
     }
 
 
@@ -205,9 +173,9 @@ namespace talus
 
   // Backwards, from each centre of a new cell to the old cells: values are
   // interpolated in the lattice of the raster, without a shift by half a cell.
-  // GDAL's warper has a cubic kernel, too, but does not reproduce a plane
-  // beside the edges, beside cells without data, and where cells of the map are
-  // larger than cells of the raster along one axis.
+  // GDAL's warper has a cubic kernel, too, and with XSCALE and YSCALE of 1
+  // gives a plane back inside, but beside the edges and beside cells without
+  // data it misses the plane by the slope over a cell.
   Raster
   project_raster(Raster             raster,
                  const std::string &map,
@@ -219,31 +187,25 @@ namespace talus
         check_degrees(raster, place);
         raster.coordinate_system = wgs_84;
       }
-    const bool is_in_degrees =
-      map_unit(raster.coordinate_system) == MapUnit::degrees;
-    const ToMap    transformation(raster, map);
-    const Point<2> centre = raster.middle();
-    auto           edge   = outline(raster);
-    edge.push_back(centre);
-    check_scale(raster, transformation, edge, place);
-    const double own = cell_sizes(raster, transformation, {centre})[0].on_map;
-    transformation.to_map.transform(edge);
+    auto edge = outline(raster);
+    edge.push_back(raster.middle());
+    check_scale(raster, map, edge, place);
+    const double own = cell_sizes(raster, map, {edge.back()})[0].on_map;
+    MapTransformation(raster.coordinate_system, map).transform(edge);
     Raster result            = frame(edge, spacing > 0 ? spacing : own, place);
     result.nodata            = raster.nodata;
     result.coordinate_system = map;
-    const HeightField heights(std::move(raster));
+    const MapTransformation from_map(map, raster.coordinate_system);
+    const HeightField       heights(std::move(raster));
     result.values.reserve(std::size_t(result.n_rows) * result.n_columns);
     for (unsigned int r = 0; r < result.n_rows; ++r)
       {
         std::vector<Point<2>> row;
         for (unsigned int i = 0; i < result.n_columns; ++i)
           row.emplace_back(result.x(i), result.y(r));
-        transformation.from_map.transform(row);
-        for (Point<2> x : row)
+        bring_to_raster(row, from_map, heights.raster());
+        for (const Point<2> &x : row)
           {
-            // Longitudes of a raster may count from 0 to 360.
-            if (is_in_degrees)
-              x[0] += 360. * std::round((centre[0] - x[0]) / 360.);
             const auto value = heights.at(x);
             result.values.push_back(
               value ? value->height : std::numeric_limits<double>::quiet_NaN());
@@ -259,7 +221,7 @@ namespace talus
     /// Return the bounding box of places on the edge of @p box in the
     /// coordinates of @p raster.
     Box<2>
-    on_raster(const Box<2> &box, const Raster &raster, const std::string &map)
+    on_raster(const Box<2> &box, Raster raster, const std::string &map)
     {
       constexpr unsigned int n = 32; // edges are bent
       Raster                 edge;
@@ -268,15 +230,13 @@ namespace talus
       edge.south                   = box.lower[1];
       edge.dx                      = box.length(0) / n;
       edge.dy                      = box.length(1) / n;
-      auto              places     = outline(edge);
-      const std::string system =
-        raster.coordinate_system.empty() ? wgs_84 : raster.coordinate_system;
-      const bool turns = !map.empty() && map_unit(system) == MapUnit::degrees;
+      auto places                  = outline(edge);
+      if (raster.coordinate_system.empty())
+        raster.coordinate_system = wgs_84;
       if (!map.empty())
-        MapTransformation(map, system).transform(places);
-      for (Point<2> &x : places)
-        if (turns)
-          x[0] += 360. * std::round((raster.middle()[0] - x[0]) / 360.);
+        bring_to_raster(places,
+                        MapTransformation(map, raster.coordinate_system),
+                        raster);
       return bounding_box(places);
     }
   } // namespace

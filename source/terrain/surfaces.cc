@@ -192,7 +192,7 @@ namespace talus
       return known->second.corners;
     const std::filesystem::path place = folder_ / file;
     protect_input(place);
-    MapLine line = read_line(place);
+    MapCorners line = read_line(place);
     bring_to_map(line.corners,
                  line.coordinate_system,
                  map(),

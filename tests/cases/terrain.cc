@@ -200,8 +200,6 @@ TEST(Terrain, ForceIsSquareToAnObliquePipe)
 // what their errors leave between them is no soil. A box is 12.5 m wide.
 TEST(Terrain, NoSoilBetweenSurfacesThatGoOnAsOne)
 {
-  if (!is_built_with_gdal())
-    GTEST_SKIP() << "The raster is in degrees, and GDAL was not found.";
   Case<3> slope(
     "own-slope.prm",
     {"Grid/Cell size=25",

@@ -10,7 +10,8 @@
 namespace talus
 {
   /// Return the corners of a line or polygon, listed in the parameter @p path
-  /// as "a,b; a,b; ...". Throws ExcUser with the name of the parameter.
+  /// as "a,b; a,b; ...", at most 1e9 m. Throws ExcUser with the name of the
+  /// parameter.
   std::vector<dealii::Point<2>>
   parse_corners(const std::string &path, const std::string &list);
 } // namespace talus

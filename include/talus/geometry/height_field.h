@@ -6,6 +6,7 @@
 
 #include <deal.II/base/point.h>
 
+#include <array>
 #include <optional>
 
 namespace talus
@@ -63,6 +64,8 @@ namespace talus
       double f, fx, fy, fxy;
     };
 
+    using ControlPoints = std::array<double, 16>;
+
     bool
     has_value(int column, int row) const;
     double
@@ -71,10 +74,8 @@ namespace talus
     difference(int column, int row, int dx, int dy) const;
     Node
     node(int column, int row) const;
-    Value
-    inner_value(int column, int row, double u, double v, bool &is_known) const;
-    Value
-    outer_value(int column, int row, double u, double v, bool &is_known) const;
+    ControlPoints
+    control_points(int column, int row) const;
     void
     extend_bounds(int column, int row);
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+class OGRCoordinateTransformation;
+
 namespace talus
 {
   /// Unit of the coordinates on a map.
@@ -23,13 +25,6 @@ namespace talus
 
   /// Longitude and latitude, degrees, in WGS 84.
   inline const std::string wgs_84 = "EPSG:4326";
-
-
-
-  /// Return whether talus was built with GDAL. Without GDAL, MapUnit::metres is
-  /// never found, and MapTransformation throws ExcUser.
-  bool
-  is_built_with_gdal();
 
 
 
@@ -64,6 +59,24 @@ namespace talus
 
 
 
+  /// Return the code, EPSG:32633, of the map with the user's @p name: `UTM 33N`
+  /// or `UTM 33S`, zone and hemisphere (the letter is not a band of latitude,
+  /// where S lies in the north), or the code itself. Throws ExcUser, with the
+  /// parameter @p path, for all further names, and for maps that are not in
+  /// metres.
+  std::string
+  map_code(const std::string &path, const std::string &name);
+
+
+
+  /// Return the name, UTM 33N, of the zone at @p place of the @p
+  /// coordinate_system; without a system in longitude and latitude, degrees.
+  std::string
+  utm_zone(const dealii::Point<2> &place,
+           const std::string      &coordinate_system = wgs_84);
+
+
+
   /// Transformation of places from one coordinate system to another.
   class MapTransformation
   {
@@ -75,13 +88,23 @@ namespace talus
     /// Transform @p places: longitude and latitude, degrees, or easting and
     /// northing, m. The result is infinite where the target system has no place
     /// for a point; resulting longitudes are between -180 and 180 degrees.
+    /// @p third has the coordinate of each place along a third axis, m.
     void
-    transform(std::vector<dealii::Point<2>> &places) const;
+    transform(std::vector<dealii::Point<2>> &places,
+              std::vector<double>           *third = nullptr) const;
 
   private:
-    struct Implementation;
-    std::shared_ptr<Implementation> implementation_;
+    std::shared_ptr<OGRCoordinateTransformation> transformation_;
   };
+
+
+
+  /// Return the lengths, m, of straight lines through the Earth (WGS 84)
+  /// between successive pairs of @p places of the @p coordinate_system.
+  /// Infinite or NaN for a place that is none.
+  std::vector<double>
+  lengths_on_earth(std::vector<dealii::Point<2>> places,
+                   const std::string            &coordinate_system);
 } // namespace talus
 
 #endif

@@ -9,24 +9,16 @@
 
 namespace talus
 {
-  /// Return whether the first line of @p file has a keyword of an Esri ASCII
-  /// grid; false unless the file is regular.
-  bool
-  is_esri_grid(const std::filesystem::path &file);
-
-
-
-  /// Read an Esri ASCII grid (.asc): lines of a keyword and a number, in any
-  /// order and case (`ncols`, `nrows`; `xllcorner` or `xllcenter`, likewise for
-  /// y; `cellsize`, or `dx` and `dy`; `nodata_value` or `nodata`), followed by
-  /// a line for each row of values, the northernmost first. Also read are:
-  /// numbers before their keywords, commas or semicolons between numbers,
-  /// decimal commas, `nan` as a value or as the mark of missing values. Throws
-  /// ExcUser with file and line if a keyword is missing, unknown or repeated, a
-  /// row is too short or too long, or an entry is no number. Only the cells of
-  /// @p part are stored.
-  Raster
-  read_esri_grid(const std::filesystem::path &file, const RasterPart &part);
+  /// Check the text of an Esri ASCII grid (.asc) that GDAL reads with
+  /// @p n_columns and @p n_rows: lines of a keyword and a number, followed by a
+  /// line for each row of values, the northernmost first. Numbers may have a
+  /// decimal comma. Throws ExcUser with file and line if a keyword is missing,
+  /// unknown or repeated, a row is too short or too long, a row is missing, or
+  /// an entry is no number.
+  void
+  check_esri_grid(const std::filesystem::path &file,
+                  unsigned int                 n_columns,
+                  unsigned int                 n_rows);
 
 
 

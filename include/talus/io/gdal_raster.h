@@ -9,11 +9,12 @@
 
 namespace talus
 {
-  /// Read a raster in any format that GDAL reads (GeoTIFF, netCDF): one band of
+  /// Read a raster in any format that GDAL reads (GeoTIFF, netCDF, Esri ASCII
+  /// grid, whose text is checked by check_esri_grid()): one band of
   /// numbers of any type, with rows along the axes of the map. From a file with
   /// several rasters the raster elevation, z or Band1 is read (names of GEBCO
   /// and GMT). Only the cells of @p part are read. Throws ExcUser if there is
-  /// no suitable raster, or if talus was built without GDAL.
+  /// no suitable raster.
   Raster
   read_gdal_raster(const std::filesystem::path &file, const RasterPart &part);
 
@@ -27,8 +28,7 @@ namespace talus
 
 
   /// Throw ExcUser if no GeoTIFF on the map @p coordinate_system, a
-  /// Raster::coordinate_system, can be written: if talus was built without
-  /// GDAL, or if GDAL does not know the map.
+  /// Raster::coordinate_system, can be written: if GDAL does not know the map.
   void
   check_geotiff(const std::string &coordinate_system);
 } // namespace talus

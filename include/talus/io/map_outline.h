@@ -10,33 +10,9 @@
 
 namespace talus
 {
-  /// All polygons and lines of a GIS file.
-  struct MapFeatures
-  {
-    using Corners = std::vector<dealii::Point<2>>;
-
-    /// Each polygon is a list of rings, the outer one first.
-    std::vector<std::vector<Corners>> polygons;
-    std::vector<Corners>              lines;
-    /// As Raster::coordinate_system.
-    std::string coordinate_system;
-  };
-
-
-
-  /// Area in plan.
-  struct MapOutline
-  {
-    std::vector<dealii::Point<2>> corners; ///< first corner not repeated at the
-                                           ///< end
-    /// As Raster::coordinate_system.
-    std::string coordinate_system;
-  };
-
-
-
-  /// Line in plan.
-  struct MapLine
+  /// Corners of an area or a line in plan; the first corner of an area is not
+  /// repeated at the end.
+  struct MapCorners
   {
     std::vector<dealii::Point<2>> corners;
     /// As Raster::coordinate_system.
@@ -45,23 +21,22 @@ namespace talus
 
 
 
-  /// Return whether @p file contains outlines, not a raster. GeoJSON is known
-  /// by the name, all further formats by the content (without GDAL by the
-  /// name).
+  /// Return whether GDAL reads vectors (points, lines, polygons) from @p file,
+  /// and no raster.
   bool
   is_outline_file(const std::filesystem::path &file);
 
 
 
-  /// Read the polygon of a GeoJSON file or, with GDAL, of any file of vectors.
+  /// Read the polygon of any file of vectors that GDAL reads.
   /// Throws ExcUser if @p file cannot be read, or contains no polygon, several
   /// polygons, or a hole.
-  MapOutline
+  MapCorners
   read_outline(const std::filesystem::path &file);
 
   /// Read the line of a file, in the formats of read_outline(). Throws ExcUser
   /// if @p file cannot be read, or contains no line or several lines.
-  MapLine
+  MapCorners
   read_line(const std::filesystem::path &file);
 } // namespace talus
 

@@ -18,8 +18,8 @@ namespace talus
 
 
 
-  /// Read a raster: an Esri ASCII grid, with the coordinate system of the file
-  /// .prj beside it, or any format that GDAL reads. Heights are converted to m
+  /// Read a raster in any format that GDAL reads; the coordinate system of an
+  /// Esri ASCII grid is in the file .prj beside it. Heights are converted to m
   /// from the unit stated by the file; coordinates are as in the file, possibly
   /// degrees. Only the cells of @p part are read. Throws ExcUser with the file
   /// name if the raster cannot be read, or has heights in an unknown unit.
@@ -30,14 +30,10 @@ namespace talus
 
 
 
-  /// Throw ExcUser with the command to project @p file if talus cannot compute
-  /// on the raster: if the raster is not in metres and @p map is empty, or if
-  /// the raster has to be projected to @p map (EPSG:32633) and talus was built
-  /// without GDAL.
+  /// Throw ExcUser with the zone of UTM in which @p file lies if the raster is
+  /// in degrees, or not in metres.
   void
-  check_projection(const std::filesystem::path &file,
-                   const Raster                &raster,
-                   const std::string           &map);
+  check_in_metres(const std::filesystem::path &file, const Raster &raster);
 } // namespace talus
 
 #endif

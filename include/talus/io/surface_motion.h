@@ -42,8 +42,7 @@ namespace talus
 
 
 
-  /// Throw ExcUser if talus was built without GDAL, or if GDAL does not write
-  /// netCDF.
+  /// Throw ExcUser if GDAL does not write netCDF.
   void
   check_netcdf();
 } // namespace talus

@@ -99,10 +99,8 @@ namespace talus
     Raster
     read_file(const std::filesystem::path &file, const Box<2> &plan) const;
     std::shared_ptr<const Surface<dim>>
-    read_outline(const dealii::Point<3> &origin) const;
-    std::shared_ptr<const Surface<dim>>
-    read_outline_file(const std::filesystem::path &file,
-                      const dealii::Point<3>      &origin) const;
+    read_outline(const std::filesystem::path &file,
+                 const dealii::Point<3>      &origin) const;
 
     std::string name_;
     std::string file_        = "";

@@ -86,8 +86,6 @@ namespace
 // change values by 0.16 m.
 TEST(GeographicMotion, ValuesAndVolumeOfAHill)
 {
-  if (!is_built_with_gdal())
-    GTEST_SKIP() << "talus was built without GDAL";
   for (const double latitude : {5., 67.3})
     {
       const SurfaceMotion       motion = hill(latitude);
@@ -131,8 +129,6 @@ TEST(GeographicMotion, ValuesAndVolumeOfAHill)
 // Fiji: 180 degrees lies in UTM zone 60 south, at the eastern edge.
 TEST(GeographicMotion, AcrossTheDateLine)
 {
-  if (!is_built_with_gdal())
-    GTEST_SKIP() << "talus was built without GDAL";
   std::vector<Point<2>> places = {{180., -17.}};
   MapTransformation(wgs_84, "EPSG:32760").transform(places);
   SurfaceMotion motion;

@@ -5,9 +5,7 @@
 #include <talus/base/errors.h>
 #include <talus/geometry/height_field.h>
 #include <talus/io/coordinate_system.h>
-#include <talus/io/utm_zone.h>
 #include <talus/terrain/project_raster.h>
-#include <talus/version.h>
 
 #include <gtest/gtest.h>
 
@@ -46,11 +44,11 @@ namespace
 
 TEST(UtmZone, ZonesOfPlaces)
 {
-  EXPECT_EQ(utm_zone(15.1, 67.).name(), "UTM 33N");
-  EXPECT_EQ(utm_zone(15.1, 67.).epsg_code(), "EPSG:32633");
-  EXPECT_EQ(utm_zone(-180., -1.).name(), "UTM 1S");
-  EXPECT_EQ(utm_zone(179.9, -1.).epsg_code(), "EPSG:32760");
-  EXPECT_EQ(utm_zone(190., 5.).name(), "UTM 2N");
+  EXPECT_EQ(utm_zone({15.1, 67.}), "UTM 33N");
+  EXPECT_EQ(utm_zone({-180., -1.}), "UTM 1S");
+  EXPECT_EQ(utm_zone({179.9, -1.}), "UTM 60S");
+  EXPECT_EQ(utm_zone({190., 5.}), "UTM 2N");
+  EXPECT_EQ(utm_zone({5e5, 7.4e6}, "EPSG:32633"), "UTM 33N");
 }
 
 
@@ -60,16 +58,19 @@ TEST(UtmZone, Codes)
   for (const auto &[name, code] : {std::make_pair("UTM 33N", "EPSG:32633"),
                                    std::make_pair("UTM1S", "EPSG:32701"),
                                    std::make_pair("EPSG:3575", "EPSG:3575")})
-    EXPECT_EQ(epsg_code("'Projection'", name), code);
+    EXPECT_EQ(map_code("'Projection'", name), code);
   for (const std::string name : {"UTM 33",
                                  "UTM 33V",
                                  "UTM 61N",
                                  "UTM 0N",
                                  "+proj=utm +zone=33",
+                                 "EPSG:4326",
+                                 "EPSG:2263",
+                                 "EPSG:1",
                                  "/etc/hosts"})
     {
       const std::string sentence =
-        error([&] { epsg_code("'Projection'", name); });
+        error([&] { map_code("'Projection'", name); });
       EXPECT_NE(sentence.find("'Projection' = '" + name +
                               "' was found, where a "
                               "UTM zone from 1 to 60 and a hemisphere"),
@@ -79,8 +80,6 @@ TEST(UtmZone, Codes)
 }
 
 
-
-#if TALUS_WITH_GDAL
 
 namespace
 {
@@ -170,23 +169,43 @@ namespace
 // In the zone, at its edges and beyond, in both hemispheres.
 TEST(MapTransformation, IsKruegersSeries)
 {
-  for (const UtmZone &zone :
-       {UtmZone{33, false}, UtmZone{1, true}, UtmZone{60, true}})
+  for (const int zone : {33, -1, -60})
     {
+      const unsigned int    number   = std::abs(zone);
+      const bool            is_south = zone < 0;
       std::vector<Point<2>> places, expected;
       for (double lon = -6.; lon <= 6.; lon += 1.5)
         for (double lat = 1.; lat < 84.; lat += 7.)
           {
-            places.emplace_back(6. * zone.number - 183. + lon,
-                                zone.is_south ? -lat : lat);
+            places.emplace_back(6. * number - 183. + lon,
+                                is_south ? -lat : lat);
             expected.push_back(
-              transverse_mercator(places.back(), zone.number, zone.is_south));
+              transverse_mercator(places.back(), number, is_south));
           }
-      MapTransformation(wgs_84, zone.epsg_code()).transform(places);
+      MapTransformation(wgs_84,
+                        map_code("",
+                                 text("UTM ", number, is_south ? 'S' : 'N')))
+        .transform(places);
       for (std::size_t i = 0; i < places.size(); ++i)
         EXPECT_LT(places[i].distance(expected[i]), 1e-6)
-          << zone.name() << ' ' << expected[i];
+          << zone << ' ' << expected[i];
     }
+}
+
+
+
+// A degree of a meridian and of the equator.
+TEST(MapTransformation, LengthsOnEarth)
+{
+  const auto lengths = lengths_on_earth(
+    {{0., -0.5}, {0., 0.5}, {10., 0.}, {11., 0.}, {0., 95.}, {0., 0.}}, wgs_84);
+  ASSERT_EQ(lengths.size(), 3u);
+  EXPECT_NEAR(lengths[0], 110574.39, 2.);
+  EXPECT_NEAR(lengths[1], 111319.49, 2.);
+  EXPECT_FALSE(std::isfinite(lengths[2]));
+  EXPECT_NEAR(lengths_on_earth({{5e5, 7e6}, {5e5, 7.001e6}}, utm_33n)[0],
+              1000. / 0.9996,
+              1e-4);
 }
 
 
@@ -411,20 +430,6 @@ TEST(ProjectRaster, RefusesMapsThatAreNotTrue)
     << sentence;
 }
 
-#else
-
-TEST(MapTransformation, NeedsGdal)
-{
-  const std::string sentence =
-    error([] { MapTransformation(wgs_84, "EPSG:32633"); });
-  EXPECT_NE(sentence.find("libgdal-dev"), std::string::npos) << sentence;
-  EXPECT_EQ(map_unit(wgs_84), MapUnit::degrees);
-  EXPECT_EQ(map_unit("GEOGCS[\"GCS_WGS_1984\"]"), MapUnit::degrees);
-  EXPECT_EQ(map_unit("PROJCS[\"of the user\"]"), MapUnit::unknown);
-  EXPECT_EQ(well_known_text("PROJCS[\"of the user\"]"),
-            "PROJCS[\"of the user\"]");
-}
-
 
 
 // The part of a large raster gives the same surface at the mesh as the whole,
@@ -432,7 +437,7 @@ TEST(MapTransformation, NeedsGdal)
 TEST(PartAround, SurfaceAtTheMeshIsThatOfTheWhole)
 {
   Raster       whole = in_degrees(2100, waves);
-  const Box<2> mesh{middle_of_map - Point<2>(300., 200.),
+  const Box<2> mesh{Point<2>(middle_of_map - Point<2>(300., 200.)),
                     middle_of_map + Point<2>(300., 200.)};
   for (const double turn : {0., 360.})
     {
@@ -459,5 +464,3 @@ TEST(PartAround, SurfaceAtTheMeshIsThatOfTheWhole)
           }
     }
 }
-
-#endif
