@@ -113,7 +113,7 @@ namespace talus
   Newton<dim>::solve_with_contact(StaticProblem<dim> &problem,
                                   const Observer     &observe)
   {
-    // Sticking lasts for one matrix only (StaticFacets), so the same singular
+    // Sticking lasts for one matrix only (StaticContact), so the same singular
     // matrices could recur.
     constexpr unsigned int max_singular = 3;
     unsigned int           n_singular   = 0;

@@ -64,27 +64,21 @@ namespace talus
     make_pattern();
     make_rigid_modes(problem.state.grid);
     if (is_well_balanced_ && !well_balanced_.is_computed())
-      well_balanced_.compute(problem, weights_, contact_.facets(), unknowns_);
+      well_balanced_.compute(problem, weights_, contact_, unknowns_);
     find_forces(problem);
   }
 
 
 
-  /// Compute internal forces, forces of obstacles and imbalance at u = 0.
+  /// Compute internal forces, forces of contact and imbalance at u = 0.
   template <int dim>
   void
   StaticEquations<dim>::find_forces(StaticProblem<dim> &problem)
   {
     const std::vector<double> no_displacements = unknowns_.field();
-    internal_                                  = unknowns_.field();
-    unbalanced_                                = unknowns_.field();
-    of_facets_.clear();
-    if (!problem.contact.obstacles().empty())
-      {
-        of_facets_ = unknowns_.field();
-        contact_.facets().add_forces(1., no_displacements, of_facets_);
-        unknowns_.add_to_owners(of_facets_);
-      }
+    internal_ = unbalanced_ = of_contact_ = no_displacements;
+    contact_.add_forces(1., no_displacements, of_contact_);
+    unknowns_.add_to_owners(of_contact_);
     // At zero displacement no point can be inverted.
     internal_forces_.evaluate(problem, weights_, no_displacements, internal_);
     unknowns_.add_to_owners(internal_);
@@ -143,7 +137,7 @@ namespace talus
     for (unsigned int c = 0; c < weights_.cells().size(); ++c)
       matrix_.couple(weights_.nodes(c));
     ghost_.couple(matrix_);
-    contact_.facets().couple(matrix_);
+    contact_.couple(matrix_);
     matrix_.finish_pattern();
   }
 
@@ -176,16 +170,14 @@ namespace talus
 
 
 
-  /// Slipping nodes are free, and their friction is known, hence a load;
-  /// likewise the forces of obstacles.
+  /// The force of contact is known, hence a load.
   template <int dim>
   std::vector<double>
   StaticEquations<dim>::out_of_balance() const
   {
     std::vector<double> force = unbalanced_;
-    for (std::size_t i = 0; i < of_facets_.size(); ++i)
-      force[i] += of_facets_[i];
-    contact_.add_friction(force);
+    for (std::size_t i = 0; i < force.size(); ++i)
+      force[i] += of_contact_[i];
     return force;
   }
 
@@ -246,20 +238,17 @@ namespace talus
 
 
 
-  /// The target of f(u) + K_g u is f(0) + s (f_ext - f(0)) - (1 - s) c, with
-  /// the fraction s of the load step and the previous force c of seabed and
+  /// The target of f(u) + K_g u - c(u) is f(0) + s (f_ext - f(0)) - (1 - s)
+  /// c(0), with the fraction s of the load step and the force c of seabed and
   /// obstacles: inserted into the residual of doc/method.md, section 12. With
-  /// s = 1 the target is f_ext for any c.
+  /// s = 1 the target is f_ext for any c(0).
   template <int dim>
   void
   StaticEquations<dim>::set_load_fraction(const double share)
   {
     target_ = internal_;
     for (std::size_t i = 0; i < target_.size(); ++i)
-      target_[i] += share * unbalanced_[i];
-    contact_.add_contact_force(-(1. - share), target_);
-    for (std::size_t i = 0; i < of_facets_.size(); ++i)
-      target_[i] -= (1. - share) * of_facets_[i];
+      target_[i] += share * unbalanced_[i] - (1. - share) * of_contact_[i];
   }
 
 
@@ -268,24 +257,20 @@ namespace talus
   void
   StaticEquations<dim>::constrain(const StaticProblem<dim> &problem)
   {
-    unknowns_.constrain(contact_.constrained(problem, unknowns_));
+    unknowns_.constrain(contact_.held(problem, unknowns_));
   }
 
 
 
-  /// Held nodes bear the negative residual.
   template <int dim>
   unsigned int
-  StaticEquations<dim>::update_contact(StaticProblem<dim>        &problem,
+  StaticEquations<dim>::update_contact(const StaticProblem<dim>  &problem,
                                        const std::vector<double> &residual,
                                        std::vector<double>       &u,
-                                       const double facet_tolerance)
+                                       const double               tolerance)
   {
-    std::vector<double> reaction = residual;
-    for (double &force : reaction)
-      force = -force;
-    const unsigned int n_changed = contact_.update_active_set(
-      problem, unknowns_, reaction, u, facet_tolerance);
+    const unsigned int n_changed =
+      contact_.update(problem, unknowns_, residual, u, tolerance);
     if (n_changed > 0)
       unknowns_.copy_to_ghosts(u);
     return n_changed;
@@ -294,8 +279,8 @@ namespace talus
 
 
   /// Compute
-  ///   r = target + friction - f(u) - K_g u + forces of obstacles(u)
-  /// at all nodes; at held nodes -r is the reaction. All ranks decide together:
+  ///   r = target + c(u) - f(u) - K_g u
+  /// at all nodes; at held nodes -r is the change of the reaction. All ranks decide together:
   /// a rank that continued alone would wait for messages for ever.
   template <int dim>
   bool
@@ -308,11 +293,9 @@ namespace talus
     if (!Utilities::MPI::logical_or(!sound, unknowns_.communicator()))
       {
         ghost_.add_forces(u, forces);
-        contact_.facets().add_forces(-1., u, forces);
+        contact_.add_forces(-1., u, forces);
         unknowns_.add_to_owners(forces);
         residual = target_;
-        contact_.set_slip(u);
-        contact_.add_friction(residual);
         for (std::size_t i = 0; i < residual.size(); ++i)
           residual[i] -= forces[i];
         return true;
@@ -331,7 +314,6 @@ namespace talus
     matrix_.clear();
     internal_forces_.add_tangent(weights_, matrix_);
     ghost_.add_to_matrix(matrix_);
-    contact_.facets().add_to_matrix(matrix_);
     contact_.add_to_matrix(matrix_);
     matrix_.finish(1e-13);
   }

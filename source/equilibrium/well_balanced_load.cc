@@ -64,7 +64,7 @@ namespace talus
   void
   WellBalancedLoad<dim>::compute(const StaticProblem<dim>      &given,
                                  const ShapeFunctionCache<dim> &weights,
-                                 const StaticFacets<dim>       &facets,
+                                 const StaticContact<dim>      &contact,
                                  Unknowns<dim>                 &unknowns)
   {
     clear();
@@ -83,7 +83,7 @@ namespace talus
     for (double &force : forces_)
       force = -force;
     add_pressure_gradient(weights);
-    facets.add_pressure(
+    contact.add_pressure(
       [&](const Point<dim> &x) {
         const double height = problem.mudline(x);
         return height > x[1] ? unit_weight_ * (height - x[1]) : 0.;

@@ -19,11 +19,11 @@ namespace talus
 {
   /// Discrete equations of one load step: residual and tangent at given
   /// displacements of the nodes. The residual is
-  ///   r = f_ext - (1 - share) (f_ext + c - f_int(0)) + friction - f_int(u)
+  ///   r = f_ext - (1 - share) (f_ext + c(0) - f_int(0)) + c(u) - f_int(u)
   ///       - ghost,
-  /// where c is the previous force of the seabed on the soil,
-  /// f_ext + c - f_int(0) the imbalance at the start of the step, and `share`
-  /// the fraction of the imbalance removed in the step. With a well-balanced
+  /// where c is the force of contact on the soil, f_ext + c(0) - f_int(0) the
+  /// imbalance at the start of the step, and `share` the fraction of the
+  /// imbalance removed in the step. With a well-balanced
   /// load, f_ext is the load minus its error E. Fields have dim components for
   /// each node of Unknowns.
   template <int dim>
@@ -101,14 +101,14 @@ namespace talus
     solve_tangent(const LinearSolver        &linear_solver,
                   const std::vector<double> &residual);
 
-    /// Update the contact states after a solution with the displacements @p u,
-    /// m, and the @p residual, N; see StaticContact::update_active_set(). May
-    /// correct @p u. Returns the number of changes. Collective.
+    /// Update the contact after a solution with the displacements @p u, m, and
+    /// the @p residual, N; see StaticContact::update(). May correct @p u.
+    /// Returns the number of changes. Collective.
     unsigned int
-    update_contact(StaticProblem<dim>        &problem,
+    update_contact(const StaticProblem<dim>  &problem,
                    const std::vector<double> &residual,
                    std::vector<double>       &u,
-                   double                     facet_tolerance);
+                   double                     tolerance);
 
     /// See StaticContact::stick_again(). Collective.
     unsigned int
@@ -176,8 +176,7 @@ namespace talus
     bool
     is_symmetric() const
     {
-      return measure_ == StrainMeasure::small &&
-             contact_.facets().is_symmetric();
+      return measure_ == StrainMeasure::small && contact_.is_symmetric();
     }
 
   private:
@@ -211,7 +210,7 @@ namespace talus
     // Fields at the nodes
     std::vector<double> unbalanced_;    ///< f_ext - E - f_int(0), N
     std::vector<double> internal_;      ///< f_int(0), N
-    std::vector<double> of_facets_;     ///< force of obstacles at u = 0, N
+    std::vector<double> of_contact_;    ///< force of contact at u = 0, N
     std::vector<double> target_;        ///< value required of f_int + ghost, N
     double              reference_ = 0; ///< N
     double              loads_     = 0; ///< Euclidean norm of the loads, N

@@ -3,7 +3,7 @@
 #define talus_equilibrium_well_balanced_load_h
 
 #include <talus/equilibrium/shape_function_cache.h>
-#include <talus/equilibrium/static_facets.h>
+#include <talus/equilibrium/static_contact.h>
 #include <talus/equilibrium/static_problem.h>
 
 #include <vector>
@@ -24,13 +24,13 @@ namespace talus
   class WellBalancedLoad
   {
   public:
-    /// Compute E for the current points, weights and facets. E is empty without
+    /// Compute E for the current points, weights and contact. E is empty without
     /// a mudline, without a weight along -y, or if the soil has moved away from
     /// its initial mudline. Collective.
     void
     compute(const StaticProblem<dim>      &problem,
             const ShapeFunctionCache<dim> &weights,
-            const StaticFacets<dim>       &facets,
+            const StaticContact<dim>      &contact,
             Unknowns<dim>                 &unknowns);
 
     /// Discard E, as points or mesh have changed.

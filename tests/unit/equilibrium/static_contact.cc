@@ -275,63 +275,68 @@ namespace
       , parts(*this, StrainMeasure::small, constants.mass_cutoff)
     {
       const auto places = places_of_nodes(grid);
-      for (unsigned int k = 0; k < parts.unknowns.active_nodes().size(); ++k)
-        if (places[parts.unknowns.active_nodes()[k]] == Point<2>(3., 0.))
-          {
-            node  = parts.unknowns.active_nodes()[k];
-            place = k;
-          }
+      for (const unsigned int active : parts.unknowns.active_nodes())
+        if (places[active] == Point<2>(3., 0.))
+          node = active;
       const StaticProblem<2> all = problem();
       contact.begin(all, parts.unknowns, 1e6);
     }
 
-    /// Returns the number of changes; displacement becomes what
-    /// update_active_set() left.
-    unsigned int
-    update_active_set(const Force &reaction, Force &displacement)
+    /// Forces of contact at all nodes, N.
+    std::vector<double>
+    forces()
     {
-      auto forces = parts.unknowns.field(), u = forces;
+      auto forces = parts.unknowns.field();
+      contact.add_forces(1., parts.unknowns.field(), forces);
+      return forces;
+    }
+
+    /// Returns the number of changes; displacement becomes what update() left.
+    unsigned int
+    update(const Force &reaction, Force &displacement)
+    {
+      auto residual = forces(), u = parts.unknowns.field();
       for (const unsigned int n : parts.unknowns.active_nodes())
-        forces[2 * n + 1] = 100.;
+        residual[2 * n + 1] -= 100.;
+      residual[2 * node + 1] += 100.;
       for (unsigned int d = 0; d < 2; ++d)
         {
-          forces[2 * node + d] = reaction[d];
-          u[2 * node + d]      = displacement[d];
+          residual[2 * node + d] -= reaction[d];
+          u[2 * node + d] = displacement[d];
         }
       const StaticProblem<2> all = problem();
       const unsigned int     n =
-        contact.update_active_set(all, parts.unknowns, forces, u, 1e-5);
+        contact.update(all, parts.unknowns, residual, u, 1e-5);
       for (unsigned int d = 0; d < 2; ++d)
         displacement[d] = u[2 * node + d];
       return n;
     }
 
     unsigned int
-    update_active_set(const Force &reaction)
+    update(const Force &reaction)
     {
       Force none;
-      return update_active_set(reaction, none);
+      return update(reaction, none);
     }
 
     unsigned int
     held()
     {
       const StaticProblem<2> all = problem();
-      return contact.constrained(all, parts.unknowns)[place];
+      return contact.held(all, parts.unknowns)[node];
     }
 
-    double
-    friction() const
+    /// Force of contact at the node, N.
+    Force
+    force()
     {
-      auto forces = parts.unknowns.field();
-      contact.add_friction(forces);
-      EXPECT_EQ(forces[2 * node + 1], 0.);
-      return forces[2 * node];
+      const auto all = forces();
+      return Point<2>(all[2 * node], all[2 * node + 1]);
     }
 
     StepParts<2>     parts;
     StaticContact<2> contact;
-    unsigned int     node = 0, place = 0;
+    unsigned int     node = 0;
   };
 } // namespace
 
@@ -341,19 +346,22 @@ TEST(StaticContactTest, SticksUpToTheLimit)
 {
   NodeOnSeabed one;
   EXPECT_EQ(one.held(), 3u);
-  EXPECT_EQ(one.update_active_set(Point<2>(49.9, 100.)), 0u);
-  EXPECT_EQ(one.update_active_set(Point<2>(-49.9, 100.)), 0u);
-  EXPECT_EQ(one.held(), 3u);
-  EXPECT_EQ(one.friction(), 0.);
-  EXPECT_EQ(one.update_active_set(Point<2>(-60., 100.)), 1u);
+  for (const Force reaction :
+       {Point<2>(49.9, 100.), Point<2>(-49.9, 100.), Point<2>(0., 20.)})
+    {
+      EXPECT_EQ(one.update(reaction), 0u);
+      EXPECT_EQ(one.held(), 3u);
+      EXPECT_LT((one.force() - reaction).norm(), 1e-12);
+    }
+  EXPECT_EQ(one.update(Point<2>(-60., 100.)), 1u);
   EXPECT_EQ(one.held(), 2u);
-  EXPECT_NEAR(one.friction(), -50., 1e-12);
+  EXPECT_LT((one.force() - Point<2>(-50., 100.)).norm(), 1e-12);
   // The limit follows the normal force up to the cap times half a metre.
-  EXPECT_EQ(one.update_active_set(Point<2>(0., 120.)), 1u);
-  EXPECT_NEAR(one.friction(), -60., 1e-12);
-  EXPECT_EQ(one.update_active_set(Point<2>(0., 400.)), 1u);
-  EXPECT_NEAR(one.friction(), -75., 1e-12);
-  EXPECT_EQ(one.update_active_set(Point<2>(0., 500.)), 0u);
+  EXPECT_EQ(one.update(Point<2>(0., 120.)), 1u);
+  EXPECT_LT((one.force() - Point<2>(-60., 120.)).norm(), 1e-12);
+  EXPECT_EQ(one.update(Point<2>(0., 400.)), 1u);
+  EXPECT_LT((one.force() - Point<2>(-75., 400.)).norm(), 1e-12);
+  EXPECT_EQ(one.update(Point<2>(0., 500.)), 0u);
 }
 
 
@@ -362,12 +370,13 @@ TEST(StaticContactTest, SlipsAgainstTheFrictionOnly)
 {
   NodeOnSeabed one;
   Force        against = Point<2>(1e-4, 0.), along = Point<2>(-1e-4, 0.);
-  one.update_active_set(Point<2>(-60., 100.));
-  EXPECT_EQ(one.update_active_set(Point<2>(0., 100.), against), 0u);
+  one.update(Point<2>(-60., 100.));
+  EXPECT_EQ(one.update(Point<2>(0., 100.), against), 0u);
   EXPECT_EQ(one.held(), 2u);
-  EXPECT_EQ(one.update_active_set(Point<2>(0., 100.), along), 1u);
+  EXPECT_EQ(one.update(Point<2>(0., 100.), along), 1u);
   EXPECT_EQ(one.held(), 3u);
-  EXPECT_EQ(one.friction(), 0.);
+  EXPECT_EQ(one.update(Point<2>(30., 100.)), 0u);
+  EXPECT_LT((one.force() - Point<2>(30., 100.)).norm(), 1e-12);
 }
 
 
@@ -375,12 +384,13 @@ TEST(StaticContactTest, SlipsAgainstTheFrictionOnly)
 TEST(StaticContactTest, LiftsOffAndComesDown)
 {
   NodeOnSeabed one;
-  EXPECT_EQ(one.update_active_set(Point<2>(0., -1.)), 1u);
+  EXPECT_EQ(one.update(Point<2>(0., -1.)), 1u);
   EXPECT_EQ(one.held(), 0u);
+  EXPECT_EQ(one.force().norm(), 0.);
   Force up = Point<2>(1e-3, 1e-3), into = Point<2>(1e-3, -1e-3);
-  EXPECT_EQ(one.update_active_set(Point<2>(0., 0.), up), 0u);
+  EXPECT_EQ(one.update(Point<2>(0., 0.), up), 0u);
   EXPECT_EQ(one.held(), 0u);
-  EXPECT_EQ(one.update_active_set(Point<2>(0., 0.), into), 1u);
+  EXPECT_EQ(one.update(Point<2>(0., 0.), into), 1u);
   EXPECT_EQ(one.held(), 3u);
   EXPECT_EQ(into[0], 1e-3);
   EXPECT_EQ(into[1], 0.);

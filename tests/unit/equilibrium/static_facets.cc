@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/equilibrium/static_facets.h>
+#include <talus/equilibrium/static_contact.h>
 
 #include "equilibrium_setup.h"
 
