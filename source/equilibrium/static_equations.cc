@@ -280,8 +280,8 @@ namespace talus
 
   /// Compute
   ///   r = target + c(u) - f(u) - K_g u
-  /// at all nodes; at held nodes -r is the change of the reaction. All ranks decide together:
-  /// a rank that continued alone would wait for messages for ever.
+  /// at all nodes; at held nodes -r is the change of c. All ranks decide
+  /// together: a rank that continued alone would wait for messages for ever.
   template <int dim>
   bool
   StaticEquations<dim>::compute_residual(StaticProblem<dim>        &problem,

@@ -4,7 +4,6 @@
 
 #include <talus/equilibrium/static_problem.h>
 #include <talus/equilibrium/stiffness_matrix.h>
-#include <talus/equilibrium/unknowns.h>
 #include <talus/surface/place_table.h>
 
 #include <array>
@@ -14,18 +13,134 @@
 
 namespace talus
 {
-  /// Contact with seabed and obstacles in equilibrium, place by place. A place
-  /// is a facet of an obstacle, a node inside an obstacle, or a node on a
-  /// seabed face of the mesh. The soil sticks, slips against the largest
-  /// friction, or has lifted off.
-  ///
-  /// By augmented Lagrangians @cite alart1991, the force of a place is a given
-  /// force plus the force of a stiff spring, cut to the limits of contact. When
-  /// Newton's method has converged, the computed force becomes the given force
-  /// of the next loop, until the springs carry nothing. A node on a face of the
-  /// mesh needs no spring: the unknowns along the force are held, and the
-  /// residual there is the change of the force. States of such nodes change
-  /// between the loops only.
+  /// Contact of soil with a place of a surface in equilibrium: a facet of an
+  /// obstacle, a node inside an obstacle, or a node on a seabed face of the
+  /// mesh. The soil sticks, slips against the largest friction, or has lifted
+  /// off.
+  template <int dim>
+  struct StaticPlace
+  {
+    static constexpr unsigned int max_nodes = ContactFacet<dim>::n_nodes;
+
+    enum class State
+    {
+      sticks,
+      slips,
+      open
+    };
+
+    unsigned int                        n_nodes = 0; ///< 0: no soil
+    std::array<unsigned int, max_nodes> node;
+    std::array<double, max_nodes>       share;    ///< of the force [-]
+    dealii::Point<dim>                  centroid; ///< of a facet, m
+    dealii::Tensor<1, dim>              normal;   ///< into the soil
+    double area      = 0; ///< of a facet in contact, m^(dim-1)
+    double stiffness = 0; ///< spring, N/m; 0: node on a face of the mesh
+    double gap       = 0; ///< at the start of the step, m
+    double opened    = 0; ///< normal displacement since the points were
+                          ///< last moved, m
+    unsigned int number_in_bed = 0; ///< number of the place in BedSlip
+    CoulombLimit limit;             ///< of friction, at the start of the step
+    State        state = State::sticks;
+    dealii::Tensor<1, dim> given, force; ///< on the soil, N
+    dealii::Tensor<1, dim> direction;    ///< of friction
+    double                 cut  = 0;     ///< friction over trial friction [-]
+    double                 slip = 0;     ///< in the step, where slip softens, m
+    bool sticks_first           = false; ///< next tangent as if the soil stuck
+
+    void
+    add_node(const unsigned int index, const double weight)
+    {
+      if (weight > 0)
+        {
+          node[n_nodes]    = index;
+          share[n_nodes++] = weight;
+        }
+    }
+
+    /// Displacement of the place, m; zero if @p u is empty.
+    dealii::Tensor<1, dim>
+    displacement(const std::vector<double> &u) const
+    {
+      dealii::Tensor<1, dim> result;
+      for (unsigned int v = 0; v < (u.empty() ? 0 : n_nodes); ++v)
+        for (unsigned int d = 0; d < dim; ++d)
+          result[d] += share[v] * u[std::size_t(dim) * node[v] + d];
+      return result;
+    }
+
+    /// Add @p on_soil, N, to the nodal field @p forces.
+    void
+    distribute(const dealii::Tensor<1, dim> &on_soil,
+               std::vector<double>          &forces) const
+    {
+      for (unsigned int v = 0; v < n_nodes; ++v)
+        for (unsigned int d = 0; d < dim; ++d)
+          forces[std::size_t(dim) * node[v] + d] += share[v] * on_soil[d];
+    }
+
+    /// Part of @p vector along the surface.
+    dealii::Tensor<1, dim>
+    tangential(const dealii::Tensor<1, dim> &vector) const
+    {
+      return vector - (vector * normal) * normal;
+    }
+
+    /// Begin a load step from the given force.
+    void
+    begin();
+
+    /// Compute the force at the displacements @p u of the step, m.
+    void
+    find_force(const std::vector<double> &u);
+
+    /// Negative derivative of the force by the displacement, N/m.
+    dealii::Tensor<2, dim>
+    tangent() const;
+
+    /// Update state and given force of a node on a face of the mesh after a
+    /// solution with the displacements @p u, m. Returns whether the state or
+    /// the friction changed.
+    /// @param reaction Force on the soil that @p u needs, N.
+    /// @param walls Components that walls hold: bit d for axis d.
+    /// @param u Displacements of the step, m.
+    /// @param tolerance Force that does not matter, N.
+    bool
+    update(const dealii::Tensor<1, dim> &reaction,
+           unsigned char                 walls,
+           const std::vector<double>    &u,
+           double                        tolerance);
+
+    // Row of a PlaceTable
+    static constexpr unsigned int n_keys = 4;
+    static constexpr const char  *columns =
+      "key of the cell or of the place of the node: upper and lower 32 bits; "
+      "obstacle or face; number of the facet in its cell, -1 for a node inside "
+      "an obstacle, -2 for a node on a face; state; normal displacement [m]; "
+      "force [N]";
+
+    bool
+    is_kept() const
+    {
+      return n_nodes > 0;
+    }
+
+    auto
+    values()
+    {
+      return std::tie(state, opened, given);
+    }
+  };
+
+
+
+  /// Contact with seabed and obstacles in equilibrium. By augmented Lagrangians
+  /// @cite alart1991, the force of a place is a given force plus the force of a
+  /// stiff spring, cut to the limits of contact. When Newton's method has
+  /// converged, the computed force becomes the given force of the next loop,
+  /// until the springs carry nothing. Nodes on faces of the mesh need no
+  /// springs: their unknowns are held, and the residual there is the change of
+  /// the force. States of such nodes change between the loops only.
   template <int dim>
   class StaticContact
   {
@@ -77,18 +192,12 @@ namespace talus
       return is_symmetric_;
     }
 
-    /// Update states and given forces from a solution. Soil that has moved into
-    /// a face of the mesh is moved back. Springs count as one change while they
-    /// give way: by @p tolerance times the largest displacement or more, so
-    /// that soil enters obstacles or moves where it sticks, and the number of
-    /// loops is not used up. Collective.
-    /// @param problem Soil and boundaries.
-    /// @param unknowns Unknowns of the load step.
-    /// @param residual Residual, N, at the nodes; negative change of the force
-    ///   at held components.
-    /// @param u Displacement of the step, m, at the nodes.
-    /// @param tolerance See above [-].
-    /// @return Number of changes of states and frictions on all ranks.
+    /// Update states and given forces from a solution with the displacements
+    /// @p u of the step, m, and the @p residual, N. Soil that has moved into a
+    /// face of the mesh is moved back. Returns the number of nodes on all ranks
+    /// whose state or friction changed, plus 1 if springs give way by more than
+    /// @p tolerance times the largest displacement, as long as loops for
+    /// springs are left. Collective.
     unsigned int
     update(const StaticProblem<dim>  &problem,
            const Unknowns<dim>       &unknowns,
@@ -104,8 +213,8 @@ namespace talus
     stick_again(const Unknowns<dim>       &unknowns,
                 const std::vector<double> &direction);
 
-    /// Store the solution with the displacements @p u, m: the forces of the
-    /// facets in @p problem, and the slip at the places of seabed and obstacles.
+    /// Store the solution with the displacements @p u, m: the slip at the
+    /// places of seabed and obstacles, and the forces of the facets.
     void
     commit(const StaticProblem<dim>  &problem,
            const std::vector<double> &u,
@@ -120,110 +229,17 @@ namespace talus
     }
 
   private:
-    enum class State
-    {
-      sticks,
-      slips,
-      open
-    };
+    using Places = PlaceTable<StaticPlace<dim>>;
 
-    struct Force
-    {
-      double                 normal = 0; ///< on the soil, N
-      dealii::Tensor<1, dim> tangential; ///< N
-    };
-
-    struct Place
-    {
-      static constexpr unsigned int max_nodes = ContactFacet<dim>::n_nodes;
-
-      unsigned int                        n_nodes = 0; ///< 0: no soil
-      std::array<unsigned int, max_nodes> node;
-      std::array<double, max_nodes>       share;    ///< of the force [-]
-      dealii::Point<dim>                  centroid; ///< of a facet, m
-      dealii::Tensor<1, dim>              normal;   ///< into the soil
-      double                              area = 0; ///< of a facet in contact,
-                                                    ///< m^(dim-1)
-      double stiffness = 0; ///< spring, N/m; 0: node on a face of the mesh
-      double gap       = 0; ///< at the start of the step, m
-      double opened    = 0; ///< normal displacement since the points were last
-                            ///< moved, m
-      CoulombLimit limit;   ///< of friction, at the start of the step
-      unsigned int number_in_bed = 0; ///< number of the place in BedSlip
-      State        state         = State::sticks;
-      Force        given, found;
-      dealii::Tensor<1, dim> direction; ///< of friction
-      double                 cut = 0; ///< friction over force without limit [-]
-      double                 slip = 0; ///< in the step, where slip softens, m
-      bool sticks_first = false;       ///< next tangent as if the soil stuck
-
-      void
-      add_node(unsigned int index, double weight);
-      void
-      begin(const FacetImpulse<dim> *impulse);
-      dealii::Tensor<1, dim>
-      displacement(const std::vector<double> &u) const;
-      void
-      find_force(const std::vector<double> &u);
-      dealii::Tensor<2, dim>
-      tangent() const;
-      bool
-      update_held(const dealii::Tensor<1, dim> &reaction,
-                  unsigned char                 walls,
-                  const std::vector<double>    &u,
-                  double                        tolerance);
-      void
-      distribute(const dealii::Tensor<1, dim> &force,
-                 std::vector<double>          &forces) const;
-      dealii::Tensor<1, dim>
-      force() const
-      {
-        return found.normal * normal + found.tangential;
-      }
-
-      // Row of a PlaceTable
-      static constexpr unsigned int n_keys = 4;
-      static constexpr const char  *columns =
-        "key of the cell or of the place of the node: upper and lower 32 bits; "
-        "obstacle or face; number of the facet in its cell, -1 for a node "
-        "inside an obstacle, -2 for a node on a face; state; normal "
-        "displacement [m]; normal force [N]; friction [N]";
-
-      bool
-      is_kept() const
-      {
-        return n_nodes > 0;
-      }
-
-      auto
-      values()
-      {
-        return std::tie(state, opened, given.normal, given.tangential);
-      }
-    };
-
-    void
-    add_facets(const StaticProblem<dim> &problem,
-               double                    modulus,
-               PlaceTable<Place>        &places) const;
-    void
-    add_nodes_inside(const StaticProblem<dim> &problem,
-                     const Unknowns<dim>      &unknowns,
-                     double                    modulus,
-                     PlaceTable<Place>        &places) const;
-    void
-    add_nodes_on_faces(const StaticProblem<dim> &problem,
-                       const Unknowns<dim>      &unknowns,
-                       PlaceTable<Place>        &places) const;
     unsigned int
     update_held(const StaticProblem<dim>  &problem,
                 const Unknowns<dim>       &unknowns,
                 const std::vector<double> &residual,
                 std::vector<double>       &u);
 
-    bool              is_symmetric_ = true;
-    unsigned int      n_loops_      = 0; ///< in this load step
-    PlaceTable<Place> places_;           ///< facets of this rank come first
+    bool         is_symmetric_ = true;
+    unsigned int n_loops_      = 0; ///< in this load step
+    Places       places_;           ///< facets of this rank come first
   };
 } // namespace talus
 

@@ -24,7 +24,7 @@ namespace talus
   class WellBalancedLoad
   {
   public:
-    /// Compute E for the current points, weights and contact. E is empty without
+    /// Compute E for current points, weights and contact. E is empty without
     /// a mudline, without a weight along -y, or if the soil has moved away from
     /// its initial mudline. Collective.
     void
