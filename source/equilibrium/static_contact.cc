@@ -41,7 +41,7 @@ namespace talus
       {
         given  = {};
         opened = 0;
-        state  = State::open;
+        state  = ContactState::open;
       }
     gap          = (is_new ? std::max(0., gap + opened) : 0.);
     sticks_first = is_new;
@@ -70,15 +70,15 @@ namespace talus
     const double         length   = tangential(trial).norm();
     const double         friction = limit.force(N);
     if (stiffness > 0)
-      state = (N < 0                        ? State::open
-               : length >= slack * friction ? State::slips
-                                            : State::sticks);
+      state = (N < 0                        ? ContactState::open
+               : length >= slack * friction ? ContactState::slips
+                                            : ContactState::sticks);
     slip  = 0;
     force = {};
-    if (state == State::open)
+    if (state == ContactState::open)
       return;
     direction = (length > 0 ? tangential(trial) / length : force);
-    if (state == State::slips && friction > 0 && limit.softens())
+    if (state == ContactState::slips && friction > 0 && limit.softens())
       slip = std::max(0., -(moved * direction));
     cut   = (length > 0 ? std::min(1., limit.force(N, slip) / length) : 0.);
     force = N * normal + cut * tangential(trial);
@@ -93,9 +93,9 @@ namespace talus
   StaticPlace<dim>::tangent() const
   {
     const Tensor<2, dim> identity = unit_symmetric_tensor<dim>();
-    if (state == State::open)
+    if (state == ContactState::open)
       return Tensor<2, dim>();
-    if (state == State::sticks || sticks_first)
+    if (state == ContactState::sticks || sticks_first)
       return stiffness * identity;
     const double         N              = force * normal;
     const Tensor<2, dim> along_normal   = outer_product(normal, normal);
@@ -126,40 +126,40 @@ namespace talus
                            const std::vector<double> &u,
                            const double               tolerance)
   {
-    const State          old_state    = state;
+    const ContactState   old_state    = state;
     const Tensor<1, dim> old_friction = tangential(force);
     const Tensor<1, dim> moved        = displacement(u);
     Tensor<1, dim>       friction     = tangential(given);
-    if (state == State::open)
-      state = (moved * normal < 0. ? State::sticks : State::open);
+    if (state == ContactState::open)
+      state = (moved * normal < 0. ? ContactState::sticks : ContactState::open);
     else if (reaction * normal < -tolerance)
       {
-        state = State::open;
+        state = ContactState::open;
         given = {};
       }
     else
       {
         const double N       = std::max(reaction * normal, 0.);
         const double largest = limit.force(N);
-        if (state == State::sticks)
+        if (state == ContactState::sticks)
           {
             friction = tangential(reaction);
             for (unsigned int d = 0; d < dim; ++d)
               if (walls & (1u << d))
                 friction[d] = 0.;
             if (friction.norm() > largest + tolerance)
-              state = State::slips;
+              state = ContactState::slips;
           }
         else if (moved * friction > 0.)
-          state = State::sticks;
+          state = ContactState::sticks;
         if (const double length = friction.norm();
-            state == State::slips && length > 0.)
+            state == ContactState::slips && length > 0.)
           friction *= largest / length;
         given = N * normal + friction;
       }
     find_force(u);
     return state != old_state ||
-           (state == State::slips &&
+           (state == ContactState::slips &&
             (tangential(force) - old_friction).norm() > tolerance);
   }
 
@@ -303,7 +303,6 @@ namespace talus
   StaticContact<dim>::held(const StaticProblem<dim> &problem,
                            const Unknowns<dim>      &unknowns) const
   {
-    using State                     = typename StaticPlace<dim>::State;
     const Grid<dim>           &grid = problem.state.grid;
     std::vector<unsigned char> result(grid.n_owned_nodes(), 0);
     for (const unsigned int node : unknowns.active_nodes())
@@ -311,8 +310,8 @@ namespace talus
         grid.faces_of_node(node));
     for (const auto &place : places_.all())
       for (unsigned int d = 0; d < dim; ++d)
-        if (place.stiffness == 0 && place.state != State::open &&
-            (place.state == State::sticks || place.normal[d] != 0))
+        if (place.stiffness == 0 && place.state != ContactState::open &&
+            (place.state == ContactState::sticks || place.normal[d] != 0))
           result[place.node[0]] |= 1u << d;
     return result;
   }
@@ -408,17 +407,16 @@ namespace talus
           const double weight =
             reaction.norm() +
             unknowns.mass(node) * problem.loads.acceleration_of_body[0].norm();
-          const bool was_open = (place.state == StaticPlace<dim>::State::open);
-          if (!place.update(reaction,
-                            problem.boundaries.components_constrained_by_walls(
-                              problem.state.grid.faces_of_node(node)),
-                            u,
-                            1e-6 * weight))
-            continue;
-          ++n_changes;
-          // The next loop holds the normal displacement at zero: on the face.
+          n_changes +=
+            place.update(reaction,
+                         problem.boundaries.components_constrained_by_walls(
+                           problem.state.grid.faces_of_node(node)),
+                         u,
+                         1e-6 * weight);
+          // Where the soil has come down, the next loop holds the normal
+          // displacement at zero: on the face.
           for (unsigned int d = 0; d < dim; ++d)
-            if (was_open && place.normal[d] != 0)
+            if (place.state != ContactState::open && place.normal[d] != 0)
               u[dim * node + d] = 0.;
         }
     return n_changes;
@@ -477,13 +475,12 @@ namespace talus
   StaticContact<dim>::stick_again(const Unknowns<dim>       &unknowns,
                                   const std::vector<double> &direction)
   {
-    using State            = typename StaticPlace<dim>::State;
     unsigned int n_changes = 0;
     for (auto &place : places_)
-      if (place.state == State::slips && !place.sticks_first &&
+      if (place.state == ContactState::slips && !place.sticks_first &&
           place.tangential(place.force) * place.displacement(direction) > 0)
         {
-          place.state        = State::sticks;
+          place.state        = ContactState::sticks;
           place.sticks_first = true;
           ++n_changes;
         }

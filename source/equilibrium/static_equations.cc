@@ -32,23 +32,22 @@ namespace talus
 
 
   /// Set up everything that is constant within a load step: unknowns, weights,
-  /// faces of the stabilization, pattern of the matrix, rigid modes, and the
-  /// forces at u = 0. The order matters: the nodal sums select the nodes with
+  /// faces of the stabilization, pattern of the matrix, and the forces at
+  /// u = 0. The order matters: the nodal sums select the nodes with
   /// unknowns; weights, faces and contact refer to the unknowns; the pattern
   /// needs all three. A pattern for each load step is cheap compared with the
   /// matrices of its iterations, and at large strain points touch different
   /// nodes in each step. Collective.
   template <int dim>
   void
-  StaticEquations<dim>::begin(StaticProblem<dim> &problem,
-                              const StrainMeasure measure,
-                              const double        ghost_penalty,
-                              const bool          is_well_balanced)
+  StaticEquations<dim>::begin(StaticProblem<dim>  &problem,
+                              const StaticOptions &options)
   {
-    measure_          = measure;
-    is_well_balanced_ = is_well_balanced && measure == StrainMeasure::small;
-    internal_forces_  = InternalForces<dim>(measure);
-    places_           = places_of_owned_nodes(problem.state.grid);
+    measure_ = options.measure;
+    is_well_balanced_ =
+      options.is_well_balanced && measure_ == StrainMeasure::small;
+    internal_forces_ = InternalForces<dim>(measure_);
+    places_          = places_of_owned_nodes(problem.state.grid);
     sum_forces(problem);
     unknowns_.number(problem.state.nodes,
                      problem.state.grid,
@@ -58,13 +57,15 @@ namespace talus
                      problem.transfer.box_shape(),
                      unknowns_);
     const double modulus = largest_shear_modulus(problem);
-    ghost_.find_faces(problem.state.grid, unknowns_, ghost_penalty, modulus);
+    ghost_.find_faces(problem.state.grid,
+                      unknowns_,
+                      options.ghost_penalty,
+                      modulus);
     contact_.begin(problem, unknowns_, modulus);
     constrain(problem);
     make_pattern();
-    make_rigid_modes(problem.state.grid);
-    if (is_well_balanced_ && !well_balanced_.is_computed())
-      well_balanced_.compute(problem, weights_, contact_, unknowns_);
+    if (is_well_balanced_)
+      well_balanced_.update(problem, weights_, contact_, unknowns_);
     find_forces(problem);
   }
 
@@ -76,9 +77,9 @@ namespace talus
   StaticEquations<dim>::find_forces(StaticProblem<dim> &problem)
   {
     const std::vector<double> no_displacements = unknowns_.field();
-    internal_ = unbalanced_ = of_contact_ = no_displacements;
-    contact_.add_forces(1., no_displacements, of_contact_);
-    unknowns_.add_to_owners(of_contact_);
+    internal_ = unbalanced_ = contact_at_start_ = no_displacements;
+    contact_.add_forces(1., no_displacements, contact_at_start_);
+    unknowns_.add_to_owners(contact_at_start_);
     // At zero displacement no point can be inverted.
     internal_forces_.evaluate(problem, weights_, no_displacements, internal_);
     unknowns_.add_to_owners(internal_);
@@ -103,6 +104,9 @@ namespace talus
     internal                    = Utilities::MPI::sum(internal, communicator);
     external                    = Utilities::MPI::sum(external, communicator);
     loads_                      = std::sqrt(external);
+    // The force of contact is known, hence a load.
+    for (std::size_t i = 0; i < unbalanced_.size(); ++i)
+      unbalanced_[i] += contact_at_start_[i];
     // Take the larger of loads and stress: soil without weight may have a
     // stress, and soil not yet stressed has loads.
     reference_ = std::sqrt(std::max(internal, external));
@@ -143,52 +147,12 @@ namespace talus
 
 
 
-  /// Compute translations and rotations about the axes, in the order of the
-  /// unknowns of this rank, as ML expects. The centre of rotation is the lower
-  /// corner of the mesh, the same on all ranks: different centres would give
-  /// different modes.
-  template <int dim>
-  void
-  StaticEquations<dim>::make_rigid_modes(const Grid<dim> &grid)
-  {
-    modes_.assign(dim == 2 ? 3 : 6, {});
-    for (const unsigned int node : unknowns_.active_nodes())
-      {
-        const Tensor<1, dim> x = places_[node] - grid.domain().lower;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            for (unsigned int e = 0; e < dim; ++e)
-              modes_[e].push_back(d == e ? 1. : 0.);
-            // Rotation in the plane of axes a and b.
-            unsigned int mode = dim;
-            for (unsigned int a = 0; a < dim; ++a)
-              for (unsigned int b = a + 1; b < dim; ++b)
-                modes_[mode++].push_back(d == a ? -x[b] : d == b ? x[a] : 0.);
-          }
-      }
-  }
-
-
-
-  /// The force of contact is known, hence a load.
-  template <int dim>
-  std::vector<double>
-  StaticEquations<dim>::out_of_balance() const
-  {
-    std::vector<double> force = unbalanced_;
-    for (std::size_t i = 0; i < force.size(); ++i)
-      force[i] += of_contact_[i];
-    return force;
-  }
-
-
-
   /// The norm leaves out held components.
   template <int dim>
   double
   StaticEquations<dim>::imbalance() const
   {
-    const double norm = unknowns_.norm(out_of_balance());
+    const double norm = unknowns_.norm(unbalanced_);
     return norm == 0. ? 0. : norm / reference_;
   }
 
@@ -232,14 +196,15 @@ namespace talus
   StaticEquations<dim>::largest_imbalance() const
   {
     std::pair<double, std::string> result;
-    result.second = where_largest(out_of_balance(), result.first);
+    result.second = where_largest(unbalanced_, result.first);
     return result;
   }
 
 
 
-  /// The target of f(u) + K_g u - c(u) is f(0) + s (f_ext - f(0)) - (1 - s)
-  /// c(0), with the fraction s of the load step and the force c of seabed and
+  /// The target of f(u) + K_g u - c(u) is
+  ///   f(0) - c(0) + s (f_ext + c(0) - f(0)),
+  /// with the fraction s of the load step and the force c of seabed and
   /// obstacles: inserted into the residual of doc/method.md, section 12. With
   /// s = 1 the target is f_ext for any c(0).
   template <int dim>
@@ -248,7 +213,7 @@ namespace talus
   {
     target_ = internal_;
     for (std::size_t i = 0; i < target_.size(); ++i)
-      target_[i] += share * unbalanced_[i] - (1. - share) * of_contact_[i];
+      target_[i] += share * unbalanced_[i] - contact_at_start_[i];
   }
 
 
@@ -320,25 +285,33 @@ namespace talus
 
 
 
-  /// Return the rigid modes with zeros at the held unknowns, which change with
-  /// the contact.
+  /// Compute translations and rotations about the axes, in the order of the
+  /// unknowns of this rank, as ML expects. The centre of rotation is a corner
+  /// of the mesh, the same on all ranks: different centres would give different
+  /// modes. Held components, which change with the contact, are zero: otherwise
+  /// multigrid would try to represent on its coarse levels motions that walls
+  /// prevent.
   template <int dim>
   RigidModes
   StaticEquations<dim>::free_rigid_modes() const
   {
-    // Displacements vanish at held components. Without zeros in the modes,
-    // multigrid would try to represent on its coarse levels motions that the
-    // walls prevent.
-    RigidModes free_modes = modes_;
-    for (auto &mode : free_modes)
-      {
-        unsigned int i = 0;
-        for (const unsigned int node : unknowns_.active_nodes())
-          for (unsigned int d = 0; d < dim; ++d, ++i)
-            if (unknowns_.is_constrained(node, d))
-              mode[i] = 0.;
-      }
-    return free_modes;
+    RigidModes modes(dim == 2 ? 3 : 6);
+    for (const unsigned int node : unknowns_.active_nodes())
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const Tensor<1, dim> x       = places_[node] - centre_;
+          const double         is_free = !unknowns_.is_constrained(node, d);
+          for (unsigned int e = 0; e < dim; ++e)
+            modes[e].push_back(d == e ? is_free : 0.);
+          // Rotation in the plane of axes a and b.
+          unsigned int mode = dim;
+          for (unsigned int a = 0; a < dim; ++a)
+            for (unsigned int b = a + 1; b < dim; ++b)
+              modes[mode++].push_back(is_free * (d == a   ? -x[b]
+                                                 : d == b ? x[a]
+                                                          : 0.));
+        }
+    return modes;
   }
 
 
@@ -391,19 +364,11 @@ namespace talus
                                   const std::vector<double> &field) const
   {
     std::vector<double> result(dim * std::size_t(points.size()), 0.);
-    for (unsigned int c = 0; c < weights_.cells().size(); ++c)
-      {
-        const Batch &cell  = weights_.cells()[c];
-        const auto   patch = weights_.patch(c);
-        for (unsigned int p = cell.begin; p < cell.end; ++p)
-          {
-            const auto *weight = weights_.of_point(c, p - cell.begin);
-            for (unsigned int a = 0; a < patch.n_nodes; ++a)
-              for (unsigned int d = 0; d < dim; ++d)
-                result[dim * p + d] +=
-                  weight[a].value * field[dim * patch.nodes[a] + d];
-          }
-      }
+    weights_.for_each_weight(
+      [&](const unsigned int p, const unsigned int node, const double weight) {
+        for (unsigned int d = 0; d < dim; ++d)
+          result[dim * p + d] += weight * field[dim * node + d];
+      });
     return result;
   }
 

@@ -119,7 +119,7 @@ namespace
     find(const StrainMeasure measure = StrainMeasure::small)
     {
       runs.clear();
-      equilibrium.begin(measure);
+      equilibrium.begin(equilibrium.options(measure));
       while (!equilibrium.is_balanced())
         {
           StaticProblem<dim> all = problem();

@@ -13,6 +13,16 @@
 
 namespace talus
 {
+  /// State of soil at a place of a surface; open: the soil has lifted off.
+  enum class ContactState
+  {
+    sticks,
+    slips,
+    open
+  };
+
+
+
   /// Contact of soil with a place of a surface in equilibrium: a facet of an
   /// obstacle, a node inside an obstacle, or a node on a seabed face of the
   /// mesh. The soil sticks, slips against the largest friction, or has lifted
@@ -22,28 +32,21 @@ namespace talus
   {
     static constexpr unsigned int max_nodes = ContactFacet<dim>::n_nodes;
 
-    enum class State
-    {
-      sticks,
-      slips,
-      open
-    };
-
     unsigned int                        n_nodes = 0; ///< 0: no soil
     std::array<unsigned int, max_nodes> node;
-    std::array<double, max_nodes>       share;    ///< of the force [-]
-    dealii::Point<dim>                  centroid; ///< of a facet, m
+    std::array<double, max_nodes>       share;    ///< shares of the force [-]
+    dealii::Point<dim>                  centroid; ///< centroid of a facet, m
     dealii::Tensor<1, dim>              normal;   ///< into the soil
-    double area      = 0; ///< of a facet in contact, m^(dim-1)
+    double area      = 0; ///< area of a facet in contact, m^(dim-1)
     double stiffness = 0; ///< spring, N/m; 0: node on a face of the mesh
     double gap       = 0; ///< at the start of the step, m
     double opened    = 0; ///< normal displacement since the points were
                           ///< last moved, m
     unsigned int number_in_bed = 0; ///< number of the place in BedSlip
-    CoulombLimit limit;             ///< of friction, at the start of the step
-    State        state = State::sticks;
+    CoulombLimit limit;             ///< limit of friction at the start
+    ContactState state = ContactState::sticks;
     dealii::Tensor<1, dim> given, force; ///< on the soil, N
-    dealii::Tensor<1, dim> direction;    ///< of friction
+    dealii::Tensor<1, dim> direction;    ///< direction of friction
     double                 cut  = 0;     ///< friction over trial friction [-]
     double                 slip = 0;     ///< in the step, where slip softens, m
     bool sticks_first           = false; ///< next tangent as if the soil stuck

@@ -31,24 +31,8 @@ namespace talus
   {
   public:
     /// Set up the equations for the current state of the soil. Collective.
-    /// @param problem Soil, loads and boundaries.
-    /// @param measure Strain measure.
-    /// @param ghost_penalty Factor gamma of the ghost penalty [-].
-    /// @param is_well_balanced Whether to use WellBalancedLoad; ignored at
-    ///   large strain.
     void
-    begin(StaticProblem<dim> &problem,
-          StrainMeasure       measure,
-          double              ghost_penalty,
-          bool                is_well_balanced = false);
-
-    /// Let the next begin() compute the well-balanced load again, as points or
-    /// mesh have changed.
-    void
-    forget_well_balanced_load()
-    {
-      well_balanced_.clear();
-    }
+    begin(StaticProblem<dim> &problem, const StaticOptions &options);
 
     /// Return whether the loads of this load step are well-balanced.
     bool
@@ -183,11 +167,7 @@ namespace talus
     void
     make_pattern();
     void
-    make_rigid_modes(const Grid<dim> &grid);
-    void
     find_forces(StaticProblem<dim> &problem);
-    std::vector<double>
-    out_of_balance() const;
     void
     assemble_matrix();
     RigidModes
@@ -204,14 +184,14 @@ namespace talus
 
     StiffnessMatrix<dim>            matrix_;
     LuFactorization                 factorization_;
-    RigidModes                      modes_;
-    std::vector<dealii::Point<dim>> places_;
+    std::vector<dealii::Point<dim>> places_; ///< places of the owned nodes, m
+    dealii::Point<dim>              centre_; ///< centre of rigid rotations, m
 
     // Fields at the nodes
-    std::vector<double> unbalanced_;    ///< f_ext - E - f_int(0), N
-    std::vector<double> internal_;      ///< f_int(0), N
-    std::vector<double> of_contact_;    ///< force of contact at u = 0, N
-    std::vector<double> target_;        ///< value required of f_int + ghost, N
+    std::vector<double> contact_at_start_; ///< c(0), N
+    std::vector<double> unbalanced_;       ///< f_ext - E + c(0) - f_int(0), N
+    std::vector<double> internal_;         ///< f_int(0), N
+    std::vector<double> target_; ///< value required of f_int + ghost - c, N
     double              reference_ = 0; ///< N
     double              loads_     = 0; ///< Euclidean norm of the loads, N
   };

@@ -206,8 +206,10 @@ TEST(StaticContactTest, FrictionIsWithinItsLimitAtEachLoadStep)
         Point<2>(0., -g),
         2.,
         "set Young's modulus = 1e6\nset Poisson's ratio = 0.45\n");
-      const double small = 1e-6 * block.weight.norm();
-      block.equilibrium.begin(StrainMeasure::small, {4, 1e-3, 1e-9});
+      const double  small   = 1e-6 * block.weight.norm();
+      StaticOptions options = block.equilibrium.options(StrainMeasure::small);
+      options.n_load_steps  = 4;
+      block.equilibrium.begin(options);
       for (unsigned int step = 1; step <= 4; ++step)
         {
           StaticProblem<2> all = block.problem();

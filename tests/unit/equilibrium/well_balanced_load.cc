@@ -212,7 +212,7 @@ namespace well_balanced_load_test
       StaticContact<dim> contact;
       contact.begin(problem, parts.unknowns, 1.);
       WellBalancedLoad<dim> load;
-      load.compute(problem, parts.weights, contact, parts.unknowns);
+      load.update(problem, parts.weights, contact, parts.unknowns);
       std::vector<double> sums(3, 0.);
       for (const unsigned int node : parts.unknowns.active_nodes())
         for (unsigned int d = 0; d < dim; ++d)
@@ -258,7 +258,7 @@ namespace well_balanced_load_test
     StaticContact<2> contact;
     contact.begin(problem, parts.unknowns, 1.);
     WellBalancedLoad<2> load;
-    load.compute(problem, parts.weights, contact, parts.unknowns);
+    load.update(problem, parts.weights, contact, parts.unknowns);
     EXPECT_GT(load.n_nodes_without(), 0u);
     const auto places = places_of_owned_nodes(block.grid);
     for (const unsigned int node : parts.unknowns.active_nodes())
