@@ -65,8 +65,7 @@ namespace talus
   typename Newton<dim>::Outcome
   Newton<dim>::failure(const std::string &reason) const
   {
-    double            largest;
-    const std::string place = equations_.where_largest(residual_, largest);
+    const auto [largest, place] = equations_.largest(residual_);
     return {false,
             text(std::setprecision(6),
                  reason,

@@ -161,9 +161,8 @@ namespace talus
   /// The place is reported by the first of the ranks with the largest
   /// component.
   template <int dim>
-  std::string
-  StaticEquations<dim>::where_largest(const std::vector<double> &force,
-                                      double                    &largest) const
+  std::pair<double, std::string>
+  StaticEquations<dim>::largest(const std::vector<double> &force) const
   {
     double     own = 0;
     Point<dim> place;
@@ -176,28 +175,18 @@ namespace talus
             place = places_[node];
           }
       });
-    const MPI_Comm communicator = unknowns_.communicator();
-    largest                     = Utilities::MPI::max(own, communicator);
-    const unsigned int n_ranks  = Utilities::MPI::n_mpi_processes(communicator);
-    const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
+    const MPI_Comm     communicator = unknowns_.communicator();
+    const double       largest      = Utilities::MPI::max(own, communicator);
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
     const unsigned int owner =
       // If the largest value is not a number, it equals no value on any rank;
       // then rank 0 answers, so that the broadcast has a root.
       Utilities::MPI::min(own == largest ? rank : n_ranks, communicator);
-    return Utilities::MPI::broadcast(communicator,
-                                     text('(', place, ") m"),
-                                     owner == n_ranks ? 0 : owner);
-  }
-
-
-
-  template <int dim>
-  std::pair<double, std::string>
-  StaticEquations<dim>::largest_imbalance() const
-  {
-    std::pair<double, std::string> result;
-    result.second = where_largest(unbalanced_, result.first);
-    return result;
+    return {largest,
+            Utilities::MPI::broadcast(communicator,
+                                      text('(', place, ") m"),
+                                      owner == n_ranks ? 0 : owner)};
   }
 
 

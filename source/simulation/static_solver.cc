@@ -203,7 +203,7 @@ namespace talus
     for (unsigned int i = 0; i < points.n_arrays(); ++i)
       saved.columns.emplace_back(points.data(i),
                                  points.data(i) + points.size());
-    saved.contact       = equilibrium_.contact();
+    saved.contact       = equilibrium_.newton().equations().contact();
     saved.facet_forces  = problem_.contact.save();
     saved.seabed_slip   = problem_.boundaries.seabed().slip().rows();
     saved.obstacle_slip = problem_.contact.slip().rows();

@@ -116,13 +116,6 @@ namespace talus
       return n_steps_;
     }
 
-    /// Contact with seabed and obstacles after the last load step.
-    const StaticContact<dim> &
-    contact() const
-    {
-      return newton_.equations().contact();
-    }
-
     /// Contact with seabed and obstacles; change it only between load steps,
     /// together with the points.
     StaticContact<dim> &

@@ -113,16 +113,17 @@ namespace talus
     double
     imbalance() const;
 
-    /// Largest component of the unbalanced force at a node, N, and its place in
-    /// words. Collective.
+    /// Largest component of @p force, N, at the free unknowns of all ranks, and
+    /// the place of the node in words. Collective.
     std::pair<double, std::string>
-    largest_imbalance() const;
+    largest(const std::vector<double> &force) const;
 
-    /// Set @p largest to the largest component of @p force, N, at the free
-    /// unknowns of all ranks. Returns the place of the node in words.
-    /// Collective.
-    std::string
-    where_largest(const std::vector<double> &force, double &largest) const;
+    /// largest() of the unbalanced force. Collective.
+    std::pair<double, std::string>
+    largest_imbalance() const
+    {
+      return largest(unbalanced_);
+    }
 
     /// Interpolate a nodal field to the points by the weights of the load step.
     /// Points must be unchanged since begin(). Returns dim components for each

@@ -155,6 +155,42 @@ TEST(StaticContactTest, BlockUnderUpwardLoadOpens)
 
 
 
+// Two seabeds meet in a corner, whose node is a place of both: neither force
+// counts twice, in any number of load steps.
+TEST(StaticContactTest, BlockInACornerOfTwoSeabeds)
+{
+  for (const unsigned int n_steps : {1, 4})
+    {
+      const Force   gravity = Point<2>(-0.6 * g, -g);
+      BlockOnSeabed block(seabed(0.2, 1e9, "set Left = seabed\n"), gravity, 0.);
+      StaticOptions options = block.equilibrium.options(StrainMeasure::small);
+      options.n_load_steps  = n_steps;
+      block.equilibrium.begin(options);
+      while (!block.equilibrium.is_balanced())
+        {
+          StaticProblem<2> all = block.problem();
+          ASSERT_TRUE(
+            block.equilibrium.advance(all, [](const auto &) { return true; }))
+            << block.equilibrium.failure();
+        }
+      StaticProblem<2> all = block.problem();
+      sum_forces(all);
+      const auto places = places_of_nodes(block.grid);
+      Force      reaction;
+      for (const unsigned int node : block.nodes.active_nodes())
+        if (block.nodes.mass(node) > block.constants.mass_cutoff)
+          {
+            if (places[node][0] == 0. || places[node][1] == 0.)
+              reaction -= block.force(node);
+            else
+              EXPECT_LT(block.force(node).norm(), 1e-8 * block.weight.norm());
+          }
+      EXPECT_LT((reaction + block.weight).norm(), 1e-8 * block.weight.norm());
+    }
+}
+
+
+
 // A block that its own weight spreads: friction is at its limit at the ends and
 // holds them back.
 TEST(StaticContactTest, FrictionIsWithinItsLimit)
