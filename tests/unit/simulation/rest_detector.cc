@@ -20,8 +20,12 @@ namespace rest_test
       dealii::ParameterAcceptor::prm.parse_input_from_string(
         in_section("Rest", "set Duration = 5"));
       dealii::ParameterAcceptor::parse_all_parameters();
+      // The first point is ahead of all others.
+      unsigned int n = 0;
       if (has_soil)
-        add_shared(*this, 20, 1, [&]() { return place(1.5); });
+        add_shared(*this, 20, 1, [&]() {
+          return n++ == 0 ? Point<2>(4.6, 2.) : place(1.5);
+        });
       for (unsigned int p = 0; p < points.size(); ++p)
         points.data(points.initial_position)[p] =
           points.data(points.position)[p] - way;
@@ -128,6 +132,35 @@ TEST(RestDetector, OutermostPointsMustStay)
       }),
                 creep > 0.02 ? never : 5.5)
         << creep;
+    }
+}
+
+
+
+// A point of a ten-thousandth of the mass may creep on, and is told.
+TEST(RestDetector, StragglersMayCreep)
+{
+  using namespace rest_test;
+  for (const double mass : {1e-4, 1.})
+    {
+      Slide             slide(2.);
+      talus::Points<2> &points   = slide.points;
+      const auto        is_first = [&](const unsigned int p) {
+        return points.data(points.id)[p] == 0;
+      };
+      for (unsigned int p = 0; p < points.size(); ++p)
+        if (is_first(p))
+          points.data(points.mass)[p] = mass;
+      EXPECT_EQ(slide.time_of_rest([&](const double /*t*/) {
+        for (unsigned int p = 0; p < points.size(); ++p)
+          if (is_first(p))
+            points.data(points.position)[p] += 0.03;
+        slide.sort();
+        return 0.01;
+      }),
+                mass < 1. ? 5.5 : never);
+      EXPECT_EQ(contains(slide.rest.sentence(5.5, 100.), "creep on outside"),
+                mass < 1.);
     }
 }
 
