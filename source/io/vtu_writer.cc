@@ -82,7 +82,7 @@ namespace talus
       out << "</Points>\n<Cells>\n";
       write_array(out,
                   "type=\"Int32\" Name=\"connectivity\"",
-                  corners_of_cells<std::int32_t>(cells));
+                  corners_of_cells(cells));
       write_array(out, "type=\"Int32\" Name=\"offsets\"", offsets);
       write_array(out,
                   "type=\"UInt8\" Name=\"types\"",
