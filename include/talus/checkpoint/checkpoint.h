@@ -19,8 +19,8 @@ namespace talus
   /// Writes checkpoints, from which a run continues with bit-identical results:
   /// a folder `checkpoints/STEP` in the output folder, with mesh and points in
   /// files of deal.II and p4est, and all other state in `state.h5`. Writing
-  /// does not change the run. A checkpoint gets its name only after it is complete and
-  /// on disk; the newest two are kept.
+  /// does not change the run. A checkpoint gets its name only after it is
+  /// complete and on disk; the newest two are kept.
   template <int dim>
   class Checkpoint : public dealii::ParameterAcceptor
   {

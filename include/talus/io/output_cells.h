@@ -142,8 +142,9 @@ namespace talus
 
 
 
-  /// Content of an output time on this rank: cells of equal shape without common vertices, and the items (points, nodes, facets) with
-  /// the fields of the cells.
+  /// Content of an output time on this rank: cells of equal shape without
+  /// common vertices, and the items (points, nodes, facets) with the fields of
+  /// the cells.
   struct OutputCells
   {
     OutputCells(std::vector<Field>  fields,

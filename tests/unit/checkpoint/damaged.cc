@@ -128,7 +128,7 @@ namespace
         expect_noticed(name, content + content);
         // Zeros at the end, as behind a write that was cut short.
         std::string zeros = content;
-        zeros.replace(content.size() - 20, 20, 20, '\0');
+        zeros.replace(zeros.size() / 2, zeros.npos, zeros.size() / 2, '\0');
         expect_noticed(name, zeros);
       }
   }
