@@ -10,6 +10,9 @@
 #include <cstring>
 #include <fstream>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 namespace talus
 {
   using namespace dealii;
@@ -22,6 +25,26 @@ namespace talus
     minutes(const std::chrono::steady_clock::duration duration)
     {
       return std::chrono::duration<double>(duration).count() / 60.;
+    }
+
+
+
+    /// Return the reason why the folder has no room for @p n_bytes, or an empty
+    /// text. p4est ends the program if the disk is full. Only a reservation
+    /// knows of quotas; some file systems cannot reserve.
+    std::string
+    lack_of_space(const fs::path &folder, const double n_bytes)
+    {
+      const fs::path path = folder / state_file_name;
+      const int      file = ::open(path.c_str(), O_WRONLY | O_CREAT, 0666);
+      const int error     = (::fallocate(file, 0, 0, n_bytes) == 0 ? 0 : errno);
+      ::close(file);
+      std::error_code ignored;
+      fs::remove(path, ignored);
+      const auto space = fs::space(folder, ignored);
+      if (error == ENOSPC || error == EDQUOT)
+        return std::strerror(error);
+      return space.available < n_bytes ? std::strerror(ENOSPC) : "";
     }
   } // namespace
 
@@ -179,21 +202,19 @@ namespace talus
                               const Content  &content) const
   {
     const auto  &points = content.points;
-    const double n_values =
+    const double n_bytes =
+      sizeof(double) *
       Utilities::MPI::sum(content.cell_weights.size() +
                             1. * points.n_arrays() * points.size(),
                           communicator_);
-    // p4est ends the program if the disk is full.
-    const double n_bytes = sizeof(double) * n_values;
-    const double needed  = n_bytes + 1e5 + 64. * content.grid.n_global_cells();
-    std::error_code error;
-    const auto      space = fs::space(folder, error);
-    check_on_all_ranks(!error && space.available < needed
-                         ? "No space left on device for the mesh"
+    const double n_bytes_of_mesh = 1e5 + 64. * content.grid.n_global_cells();
+    check_on_all_ranks(is_first_rank(communicator_)
+                         ? lack_of_space(folder, n_bytes + n_bytes_of_mesh)
                          : "");
     attach_points(content.grid, points, content.cell_weights);
     content.grid.save((folder / mesh_file_name).string());
-    const auto size = fs::file_size(folder / points_file_name, error);
+    std::error_code error;
+    const auto      size = fs::file_size(folder / points_file_name, error);
     check_on_all_ranks(
       error || size < n_bytes ? "the file of the points is not complete" : "");
   }

@@ -244,8 +244,8 @@ namespace talus
 
 
 
-  /// Other files in the folder are ignored: notes of the user, remains of open
-  /// files removed on a network file system.
+  /// Files of the user in the folder are ignored, as are remains of open files
+  /// removed on a network file system.
   std::string
   list_checksums(const fs::path &checkpoint, const MPI_Comm communicator)
   {
