@@ -461,7 +461,7 @@ namespace talus
     for (unsigned int face = 0; face < 2 * dim; ++face)
       check_expressions(face);
     seabed_.prepare(constants);
-    AssertThrow(has_seabed() || !seabed_.changes_by_slip(),
+    AssertThrow(has_seabed() || !seabed_.softens(),
                 ExcUser("'Boundaries/Seabed/Slip to remould' is given, but no "
                         "face of the mesh is a seabed. Give the entry in the "
                         "section of an obstacle, set 'seabed' at a face, or "

@@ -94,7 +94,7 @@ namespace talus
                              "/Film consistency' is 0, so that the film passes "
                              "no stress. Give the consistency in Pa s^n, or "
                              "remove the thickness.")));
-    AssertThrow(changes_by_slip() == (remoulded_ratio_ < 1),
+    AssertThrow(softens() == (remoulded_ratio_ < 1),
                 ExcUser(text("'",
                              section,
                              "/Slip to remould' is ",
@@ -113,7 +113,7 @@ namespace talus
   double
   InterfaceFriction::share_after_slip(const double slip) const
   {
-    return changes_by_slip()
+    return softens()
              ? remoulded_ratio_ + (1. - remoulded_ratio_) *
                                     std::exp(-3. * slip / slip_to_remould_)
              : 1.;
@@ -150,7 +150,7 @@ namespace talus
       return result;
     const double intact = shear_stress_factor_ * maximum_shear_stress * area;
     result.cap          = intact * share_left(state);
-    if (!changes_by_slip())
+    if (!softens())
       return result;
     result.residual = remoulded_ratio_ * intact;
     result.excess   = intact * share_after_slip(state.slip) - result.residual;

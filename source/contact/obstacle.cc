@@ -145,14 +145,14 @@ namespace talus
                              "the obstacle moves (",
                              motion,
                              "). Give a stress without `depth`.")));
-    AssertThrow(!bed_.changes_by_slip() || bed_.limits_shear_stress(),
+    AssertThrow(!bed_.softens() || bed_.limits_shear_stress(),
                 ExcUser(text(path("Slip to remould"),
                              " is given, but ",
                              path("Maximum shear stress"),
                              " is empty, so that slip has nothing to take "
                              "away. Give the stress of the intact surface in "
                              "Pa, or remove the slip.")));
-    AssertThrow(!bed_.changes_by_slip() || !moves(),
+    AssertThrow(!bed_.softens() || !moves(),
                 ExcUser(text(path("Slip to remould"),
                              " is given, but the obstacle moves (",
                              motion,

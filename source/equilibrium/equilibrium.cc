@@ -9,40 +9,6 @@ namespace talus
 {
   using namespace dealii;
 
-  namespace
-  {
-    /// Declare the entries of section Equilibrium that belong to Newton's
-    /// method.
-    template <typename Parameters>
-    void
-    add_newton_parameters(ParameterAcceptor &section, Parameters &newton)
-    {
-      section.add_parameter(
-        "Newton tolerance",
-        newton.tolerance,
-        "Largest residual of Newton's method over the force of the loads "
-        "[-].",
-        section.prm,
-        Patterns::Double(0.));
-      section.add_parameter(
-        "Newton iterations",
-        newton.largest_iterations,
-        "Largest number of iterations of Newton's method in a load "
-        "step.",
-        section.prm,
-        Patterns::Integer(1));
-      section.add_parameter(
-        "Ghost penalty",
-        newton.ghost_penalty,
-        "Stiffness that ties nodes with very little soil to their "
-        "neighbours, over the shear modulus [-].",
-        section.prm,
-        Patterns::Double(0.));
-    }
-  } // namespace
-
-
-
   template <int dim>
   Equilibrium<dim>::Equilibrium()
     : ParameterAcceptor("/Equilibrium")
@@ -57,14 +23,14 @@ namespace talus
                   this->prm,
                   Patterns::Selection("small|large"));
     add_parameter("Load steps",
-                  n_load_steps_,
+                  parameters_.n_load_steps,
                   "Number of equal steps in which the load is applied [-]; a "
                   "step is halved if Newton's method fails, and later steps "
                   "grow again.",
                   this->prm,
                   Patterns::Integer(1));
     add_parameter("Smallest load step",
-                  smallest_step_,
+                  parameters_.smallest_step,
                   "Smallest fraction of the load in a halved step [-]; if it "
                   "fails, the search ends. The steps that 'Load steps' "
                   "requires are always tried.",
@@ -72,7 +38,7 @@ namespace talus
                   smallest_load_steps());
     add_parameter(
       "Allowed imbalance",
-      allowed_imbalance_,
+      parameters_.allowed_imbalance,
       "Largest unbalanced force of soil in balance, over the force of the "
       "loads or of the stress, whichever is larger (Euclidean norms over "
       "the nodes) [-]; 0 for 1e-6 at small strain and 1e-3 at large "
@@ -85,9 +51,26 @@ namespace talus
                   "soil is not in balance afterwards, the search ends.",
                   this->prm,
                   Patterns::Integer(1));
-    add_newton_parameters(*this, newton_parameters_);
+    add_parameter("Newton tolerance",
+                  parameters_.tolerance,
+                  "Largest residual of Newton's method over the force of the "
+                  "loads [-].",
+                  this->prm,
+                  Patterns::Double(0.));
+    add_parameter("Newton iterations",
+                  parameters_.largest_iterations,
+                  "Largest number of iterations of Newton's method in a load "
+                  "step.",
+                  this->prm,
+                  Patterns::Integer(1));
+    add_parameter("Ghost penalty",
+                  parameters_.ghost_penalty,
+                  "Stiffness that ties nodes with very little soil to their "
+                  "neighbours, over the shear modulus [-].",
+                  this->prm,
+                  Patterns::Double(0.));
     add_parameter("Well-balanced load",
-                  is_well_balanced_,
+                  parameters_.is_well_balanced,
                   "Subtract from the weight its error in partly filled cells: "
                   "the nodal force left by a pressure proportional to the "
                   "depth. Otherwise the soil at the mudline has to bear shear "
@@ -123,33 +106,28 @@ namespace talus
   /// to move far. Hence the default imbalance is a thousand times larger than
   /// at small strain.
   template <int dim>
-  EquilibriumLimits
-  Equilibrium<dim>::limits(const StrainMeasure measure) const
+  StaticOptions
+  Equilibrium<dim>::options(const StrainMeasure measure) const
   {
-    return {n_load_steps_,
-            smallest_step_,
-            allowed_imbalance_ > 0.           ? allowed_imbalance_
-            : measure == StrainMeasure::small ? 1e-6
-                                              : 1e-3,
-            is_well_balanced_};
+    StaticOptions options = parameters_;
+    options.measure       = measure;
+    if (options.allowed_imbalance == 0.)
+      options.allowed_imbalance =
+        (measure == StrainMeasure::small ? 1e-6 : 1e-3);
+    return options;
   }
 
 
 
   template <int dim>
   void
-  Equilibrium<dim>::begin(const StrainMeasure      measure,
-                          const EquilibriumLimits &limits)
+  Equilibrium<dim>::begin(const StaticOptions &options)
   {
-    limits_                              = limits;
-    newton_parameters_.measure           = measure;
-    newton_parameters_.is_well_balanced  = limits.is_well_balanced;
-    newton_parameters_.contact_tolerance = limits.contact_tolerance;
-    newton_parameters_.facet_tolerance   = limits.facet_tolerance;
-    load_                                = 0;
-    step_                                = 1. / limits.n_load_steps;
+    options_   = options;
+    load_      = 0;
+    step_      = 1. / options.n_load_steps;
+    imbalance_ = 0;
     n_steps_ = n_settling_ = n_failures_ = 0;
-    imbalance_                           = 0;
     is_found_ = is_stopped_ = false;
     imbalances_.clear();
     failure_.clear();
@@ -164,7 +142,7 @@ namespace talus
   void
   Equilibrium<dim>::return_stress(StaticProblem<dim> &problem)
   {
-    newton_.begin(problem, newton_parameters_);
+    newton_.begin(problem, options_);
     newton_.commit(problem); // no displacements
   }
 
@@ -188,9 +166,9 @@ namespace talus
                             const Observer     &observe)
   {
     newton_.begin(problem,
-                  parameters_of_step(!problem.contact.obstacles().empty()));
+                  options_of_step(!problem.contact.obstacles().empty()));
     imbalance_ = newton_.equations().imbalance();
-    if (load_ >= 1. && imbalance_ <= limits_.allowed_imbalance)
+    if (load_ >= 1. && imbalance_ <= options_.allowed_imbalance)
       {
         is_found_ = true;
         return true;
@@ -207,7 +185,7 @@ namespace talus
                                            "is ",
                         imbalance_,
                         " of the force of the loads, but at most ",
-                        limits_.allowed_imbalance,
+                        options_.allowed_imbalance,
                         " is allowed; the largest force of a node is ",
                         largest,
                         " N, at ",
@@ -227,15 +205,15 @@ namespace talus
   /// full pressure: held by their springs and the penalty, they follow only if
   /// the penalty is close to zero, hence the lower bound of 1e-9.
   template <int dim>
-  typename Newton<dim>::Parameters
-  Equilibrium<dim>::parameters_of_step(const bool has_obstacles) const
+  StaticOptions
+  Equilibrium<dim>::options_of_step(const bool has_obstacles) const
   {
-    auto parameters = newton_parameters_;
-    if (parameters.measure == StrainMeasure::small)
-      parameters.ghost_penalty *=
+    StaticOptions options = options_;
+    if (options.measure == StrainMeasure::small)
+      options.ghost_penalty *=
         (has_obstacles ? std::max(1e-9, std::pow(0.1, n_settling_))
                        : std::max(1e-3, std::pow(0.5, n_settling_)));
-    return parameters;
+    return options;
   }
 
 
@@ -278,7 +256,7 @@ namespace talus
   Equilibrium<dim>::flows_on() const
   {
     return load_ >= 1. && !is_falling(1) &&
-           newton_parameters_.measure == StrainMeasure::small;
+           options_.measure == StrainMeasure::small;
   }
 
 
@@ -303,7 +281,7 @@ namespace talus
     // imbalance.
     const double rest = 1. - load_;
     const bool   all  = !(rest > 1.0001 * step_);
-    for (double cut = 1.; cut == 1. || cut * step_ >= limits_.smallest_step;
+    for (double cut = 1.; cut == 1. || cut * step_ >= options_.smallest_step;
          cut *= 0.5)
       {
         // Fraction of the current imbalance; the last step removes all of it.
@@ -318,7 +296,7 @@ namespace talus
             failure_    = outcome.failure;
             is_stopped_ = outcome.is_stopped;
             if (is_stopped_ || flows_on() ||
-                ++n_failures_ > limits_.max_failures)
+                ++n_failures_ > options_.max_failures)
               return false;
             continue;
           }
@@ -327,7 +305,7 @@ namespace talus
         // does not settle.
         n_settling_ += (load_ >= 1.);
         load_ = after;
-        step_ = std::min(1.5 * cut * step_, 1. / limits_.n_load_steps);
+        step_ = std::min(1.5 * cut * step_, 1. / options_.n_load_steps);
         ++n_steps_;
         return true;
       }

@@ -47,15 +47,12 @@ namespace talus
 
   template <int dim>
   void
-  Newton<dim>::begin(StaticProblem<dim> &problem, const Parameters &parameters)
+  Newton<dim>::begin(StaticProblem<dim> &problem, const StaticOptions &options)
   {
-    parameters_ = parameters;
-    extent_     = problem.state.grid.domain().lower.distance(
+    options_ = options;
+    extent_  = problem.state.grid.domain().lower.distance(
       problem.state.grid.domain().upper);
-    equations_.begin(problem,
-                     parameters.measure,
-                     parameters.ghost_penalty,
-                     parameters.is_well_balanced);
+    equations_.begin(problem, options);
     u_ = last_correction_ = residual_ = equations_.unknowns().field();
     mechanism_.resize(u_.size(), 0.);
   }
@@ -68,8 +65,7 @@ namespace talus
   typename Newton<dim>::Outcome
   Newton<dim>::failure(const std::string &reason) const
   {
-    double            largest;
-    const std::string place = equations_.where_largest(residual_, largest);
+    const auto [largest, place] = equations_.largest(residual_);
     return {false,
             text(std::setprecision(6),
                  reason,
@@ -113,11 +109,11 @@ namespace talus
   Newton<dim>::solve_with_contact(StaticProblem<dim> &problem,
                                   const Observer     &observe)
   {
-    // Sticking lasts for one matrix only (StaticFacets), so the same singular
+    // Sticking lasts for one matrix only (StaticContact), so the same singular
     // matrices could recur.
     constexpr unsigned int max_singular = 3;
     unsigned int           n_singular   = 0;
-    double                 tolerance    = parameters_.contact_tolerance;
+    double                 tolerance    = options_.contact_tolerance;
     // The state of a node may change several times.
     for (unsigned int trial = 0; trial < 50; ++trial)
       {
@@ -140,9 +136,9 @@ namespace talus
           }
         mechanism_ = u_;
         if (equations_.update_contact(
-              problem, residual_, u_, parameters_.facet_tolerance) > 0)
+              problem, residual_, u_, options_.facet_tolerance) > 0)
           continue;
-        if (outcome.residual <= parameters_.tolerance)
+        if (outcome.residual <= options_.tolerance)
           return outcome;
         tolerance = 0.;
       }
@@ -166,7 +162,7 @@ namespace talus
                            const double        largest_tolerance,
                            const Observer     &observe)
   {
-    double tolerance = parameters_.tolerance;
+    double tolerance = options_.tolerance;
     moves_freely_    = false;
     n_updates_       = 0;
     if (!equations_.compute_residual(problem, u_, residual_))
@@ -184,7 +180,7 @@ namespace talus
             std::max(tolerance,
                      std::min(largest_tolerance, 0.01 * iteration.residual));
         const bool converged = (iteration.residual <= tolerance);
-        if (converged || i == parameters_.largest_iterations ||
+        if (converged || i == options_.largest_iterations ||
             !std::isfinite(norm))
           {
             if (!observe(iteration))

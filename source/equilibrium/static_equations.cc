@@ -32,23 +32,22 @@ namespace talus
 
 
   /// Set up everything that is constant within a load step: unknowns, weights,
-  /// faces of the stabilization, pattern of the matrix, rigid modes, and the
-  /// forces at u = 0. The order matters: the nodal sums select the nodes with
+  /// faces of the stabilization, pattern of the matrix, and the forces at
+  /// u = 0. The order matters: the nodal sums select the nodes with
   /// unknowns; weights, faces and contact refer to the unknowns; the pattern
   /// needs all three. A pattern for each load step is cheap compared with the
   /// matrices of its iterations, and at large strain points touch different
   /// nodes in each step. Collective.
   template <int dim>
   void
-  StaticEquations<dim>::begin(StaticProblem<dim> &problem,
-                              const StrainMeasure measure,
-                              const double        ghost_penalty,
-                              const bool          is_well_balanced)
+  StaticEquations<dim>::begin(StaticProblem<dim>  &problem,
+                              const StaticOptions &options)
   {
-    measure_          = measure;
-    is_well_balanced_ = is_well_balanced && measure == StrainMeasure::small;
-    internal_forces_  = InternalForces<dim>(measure);
-    places_           = places_of_owned_nodes(problem.state.grid);
+    measure_ = options.measure;
+    is_well_balanced_ =
+      options.is_well_balanced && measure_ == StrainMeasure::small;
+    internal_forces_ = InternalForces<dim>(measure_);
+    places_          = places_of_owned_nodes(problem.state.grid);
     sum_forces(problem);
     unknowns_.number(problem.state.nodes,
                      problem.state.grid,
@@ -58,33 +57,29 @@ namespace talus
                      problem.transfer.box_shape(),
                      unknowns_);
     const double modulus = largest_shear_modulus(problem);
-    ghost_.find_faces(problem.state.grid, unknowns_, ghost_penalty, modulus);
+    ghost_.find_faces(problem.state.grid,
+                      unknowns_,
+                      options.ghost_penalty,
+                      modulus);
     contact_.begin(problem, unknowns_, modulus);
     constrain(problem);
     make_pattern();
-    make_rigid_modes(problem.state.grid);
-    if (is_well_balanced_ && !well_balanced_.is_computed())
-      well_balanced_.compute(problem, weights_, contact_.facets(), unknowns_);
+    if (is_well_balanced_)
+      well_balanced_.update(problem, weights_, contact_, unknowns_);
     find_forces(problem);
   }
 
 
 
-  /// Compute internal forces, forces of obstacles and imbalance at u = 0.
+  /// Compute internal forces, forces of contact and imbalance at u = 0.
   template <int dim>
   void
   StaticEquations<dim>::find_forces(StaticProblem<dim> &problem)
   {
     const std::vector<double> no_displacements = unknowns_.field();
-    internal_                                  = unknowns_.field();
-    unbalanced_                                = unknowns_.field();
-    of_facets_.clear();
-    if (!problem.contact.obstacles().empty())
-      {
-        of_facets_ = unknowns_.field();
-        contact_.facets().add_forces(1., no_displacements, of_facets_);
-        unknowns_.add_to_owners(of_facets_);
-      }
+    internal_ = unbalanced_ = contact_at_start_ = no_displacements;
+    contact_.add_forces(1., no_displacements, contact_at_start_);
+    unknowns_.add_to_owners(contact_at_start_);
     // At zero displacement no point can be inverted.
     internal_forces_.evaluate(problem, weights_, no_displacements, internal_);
     unknowns_.add_to_owners(internal_);
@@ -109,6 +104,9 @@ namespace talus
     internal                    = Utilities::MPI::sum(internal, communicator);
     external                    = Utilities::MPI::sum(external, communicator);
     loads_                      = std::sqrt(external);
+    // The force of contact is known, hence a load.
+    for (std::size_t i = 0; i < unbalanced_.size(); ++i)
+      unbalanced_[i] += contact_at_start_[i];
     // Take the larger of loads and stress: soil without weight may have a
     // stress, and soil not yet stressed has loads.
     reference_ = std::sqrt(std::max(internal, external));
@@ -143,50 +141,8 @@ namespace talus
     for (unsigned int c = 0; c < weights_.cells().size(); ++c)
       matrix_.couple(weights_.nodes(c));
     ghost_.couple(matrix_);
-    contact_.facets().couple(matrix_);
+    contact_.couple(matrix_);
     matrix_.finish_pattern();
-  }
-
-
-
-  /// Compute translations and rotations about the axes, in the order of the
-  /// unknowns of this rank, as ML expects. The centre of rotation is the lower
-  /// corner of the mesh, the same on all ranks: different centres would give
-  /// different modes.
-  template <int dim>
-  void
-  StaticEquations<dim>::make_rigid_modes(const Grid<dim> &grid)
-  {
-    modes_.assign(dim == 2 ? 3 : 6, {});
-    for (const unsigned int node : unknowns_.active_nodes())
-      {
-        const Tensor<1, dim> x = places_[node] - grid.domain().lower;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            for (unsigned int e = 0; e < dim; ++e)
-              modes_[e].push_back(d == e ? 1. : 0.);
-            // Rotation in the plane of axes a and b.
-            unsigned int mode = dim;
-            for (unsigned int a = 0; a < dim; ++a)
-              for (unsigned int b = a + 1; b < dim; ++b)
-                modes_[mode++].push_back(d == a ? -x[b] : d == b ? x[a] : 0.);
-          }
-      }
-  }
-
-
-
-  /// Slipping nodes are free, and their friction is known, hence a load;
-  /// likewise the forces of obstacles.
-  template <int dim>
-  std::vector<double>
-  StaticEquations<dim>::out_of_balance() const
-  {
-    std::vector<double> force = unbalanced_;
-    for (std::size_t i = 0; i < of_facets_.size(); ++i)
-      force[i] += of_facets_[i];
-    contact_.add_friction(force);
-    return force;
   }
 
 
@@ -196,7 +152,7 @@ namespace talus
   double
   StaticEquations<dim>::imbalance() const
   {
-    const double norm = unknowns_.norm(out_of_balance());
+    const double norm = unknowns_.norm(unbalanced_);
     return norm == 0. ? 0. : norm / reference_;
   }
 
@@ -205,9 +161,8 @@ namespace talus
   /// The place is reported by the first of the ranks with the largest
   /// component.
   template <int dim>
-  std::string
-  StaticEquations<dim>::where_largest(const std::vector<double> &force,
-                                      double                    &largest) const
+  std::pair<double, std::string>
+  StaticEquations<dim>::largest(const std::vector<double> &force) const
   {
     double     own = 0;
     Point<dim> place;
@@ -220,46 +175,34 @@ namespace talus
             place = places_[node];
           }
       });
-    const MPI_Comm communicator = unknowns_.communicator();
-    largest                     = Utilities::MPI::max(own, communicator);
-    const unsigned int n_ranks  = Utilities::MPI::n_mpi_processes(communicator);
-    const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
+    const MPI_Comm     communicator = unknowns_.communicator();
+    const double       largest      = Utilities::MPI::max(own, communicator);
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
     const unsigned int owner =
       // If the largest value is not a number, it equals no value on any rank;
       // then rank 0 answers, so that the broadcast has a root.
       Utilities::MPI::min(own == largest ? rank : n_ranks, communicator);
-    return Utilities::MPI::broadcast(communicator,
-                                     text('(', place, ") m"),
-                                     owner == n_ranks ? 0 : owner);
+    return {largest,
+            Utilities::MPI::broadcast(communicator,
+                                      text('(', place, ") m"),
+                                      owner == n_ranks ? 0 : owner)};
   }
 
 
 
-  template <int dim>
-  std::pair<double, std::string>
-  StaticEquations<dim>::largest_imbalance() const
-  {
-    std::pair<double, std::string> result;
-    result.second = where_largest(out_of_balance(), result.first);
-    return result;
-  }
-
-
-
-  /// The target of f(u) + K_g u is f(0) + s (f_ext - f(0)) - (1 - s) c, with
-  /// the fraction s of the load step and the previous force c of seabed and
+  /// The target of f(u) + K_g u - c(u) is
+  ///   f(0) - c(0) + s (f_ext + c(0) - f(0)),
+  /// with the fraction s of the load step and the force c of seabed and
   /// obstacles: inserted into the residual of doc/method.md, section 12. With
-  /// s = 1 the target is f_ext for any c.
+  /// s = 1 the target is f_ext for any c(0).
   template <int dim>
   void
   StaticEquations<dim>::set_load_fraction(const double share)
   {
     target_ = internal_;
     for (std::size_t i = 0; i < target_.size(); ++i)
-      target_[i] += share * unbalanced_[i];
-    contact_.add_contact_force(-(1. - share), target_);
-    for (std::size_t i = 0; i < of_facets_.size(); ++i)
-      target_[i] -= (1. - share) * of_facets_[i];
+      target_[i] += share * unbalanced_[i] - contact_at_start_[i];
   }
 
 
@@ -268,24 +211,20 @@ namespace talus
   void
   StaticEquations<dim>::constrain(const StaticProblem<dim> &problem)
   {
-    unknowns_.constrain(contact_.constrained(problem, unknowns_));
+    unknowns_.constrain(contact_.held(problem, unknowns_));
   }
 
 
 
-  /// Held nodes bear the negative residual.
   template <int dim>
   unsigned int
-  StaticEquations<dim>::update_contact(StaticProblem<dim>        &problem,
+  StaticEquations<dim>::update_contact(const StaticProblem<dim>  &problem,
                                        const std::vector<double> &residual,
                                        std::vector<double>       &u,
-                                       const double facet_tolerance)
+                                       const double               tolerance)
   {
-    std::vector<double> reaction = residual;
-    for (double &force : reaction)
-      force = -force;
-    const unsigned int n_changed = contact_.update_active_set(
-      problem, unknowns_, reaction, u, facet_tolerance);
+    const unsigned int n_changed =
+      contact_.update(problem, unknowns_, residual, u, tolerance);
     if (n_changed > 0)
       unknowns_.copy_to_ghosts(u);
     return n_changed;
@@ -294,9 +233,9 @@ namespace talus
 
 
   /// Compute
-  ///   r = target + friction - f(u) - K_g u + forces of obstacles(u)
-  /// at all nodes; at held nodes -r is the reaction. All ranks decide together:
-  /// a rank that continued alone would wait for messages for ever.
+  ///   r = target + c(u) - f(u) - K_g u
+  /// at all nodes; at held nodes -r is the change of c. All ranks decide
+  /// together: a rank that continued alone would wait for messages for ever.
   template <int dim>
   bool
   StaticEquations<dim>::compute_residual(StaticProblem<dim>        &problem,
@@ -308,11 +247,9 @@ namespace talus
     if (!Utilities::MPI::logical_or(!sound, unknowns_.communicator()))
       {
         ghost_.add_forces(u, forces);
-        contact_.facets().add_forces(-1., u, forces);
+        contact_.add_forces(-1., u, forces);
         unknowns_.add_to_owners(forces);
         residual = target_;
-        contact_.set_slip(u);
-        contact_.add_friction(residual);
         for (std::size_t i = 0; i < residual.size(); ++i)
           residual[i] -= forces[i];
         return true;
@@ -331,32 +268,39 @@ namespace talus
     matrix_.clear();
     internal_forces_.add_tangent(weights_, matrix_);
     ghost_.add_to_matrix(matrix_);
-    contact_.facets().add_to_matrix(matrix_);
     contact_.add_to_matrix(matrix_);
     matrix_.finish(1e-13);
   }
 
 
 
-  /// Return the rigid modes with zeros at the held unknowns, which change with
-  /// the contact.
+  /// Compute translations and rotations about the axes, in the order of the
+  /// unknowns of this rank, as ML expects. The centre of rotation is a corner
+  /// of the mesh, the same on all ranks: different centres would give different
+  /// modes. Held components, which change with the contact, are zero: otherwise
+  /// multigrid would try to represent on its coarse levels motions that walls
+  /// prevent.
   template <int dim>
   RigidModes
   StaticEquations<dim>::free_rigid_modes() const
   {
-    // Displacements vanish at held components. Without zeros in the modes,
-    // multigrid would try to represent on its coarse levels motions that the
-    // walls prevent.
-    RigidModes free_modes = modes_;
-    for (auto &mode : free_modes)
-      {
-        unsigned int i = 0;
-        for (const unsigned int node : unknowns_.active_nodes())
-          for (unsigned int d = 0; d < dim; ++d, ++i)
-            if (unknowns_.is_constrained(node, d))
-              mode[i] = 0.;
-      }
-    return free_modes;
+    RigidModes modes(dim == 2 ? 3 : 6);
+    for (const unsigned int node : unknowns_.active_nodes())
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const Tensor<1, dim> x       = places_[node] - centre_;
+          const double         is_free = !unknowns_.is_constrained(node, d);
+          for (unsigned int e = 0; e < dim; ++e)
+            modes[e].push_back(d == e ? is_free : 0.);
+          // Rotation in the plane of axes a and b.
+          unsigned int mode = dim;
+          for (unsigned int a = 0; a < dim; ++a)
+            for (unsigned int b = a + 1; b < dim; ++b)
+              modes[mode++].push_back(is_free * (d == a   ? -x[b]
+                                                 : d == b ? x[a]
+                                                          : 0.));
+        }
+    return modes;
   }
 
 
@@ -409,19 +353,11 @@ namespace talus
                                   const std::vector<double> &field) const
   {
     std::vector<double> result(dim * std::size_t(points.size()), 0.);
-    for (unsigned int c = 0; c < weights_.cells().size(); ++c)
-      {
-        const Batch &cell  = weights_.cells()[c];
-        const auto   patch = weights_.patch(c);
-        for (unsigned int p = cell.begin; p < cell.end; ++p)
-          {
-            const auto *weight = weights_.of_point(c, p - cell.begin);
-            for (unsigned int a = 0; a < patch.n_nodes; ++a)
-              for (unsigned int d = 0; d < dim; ++d)
-                result[dim * p + d] +=
-                  weight[a].value * field[dim * patch.nodes[a] + d];
-          }
-      }
+    weights_.for_each_weight(
+      [&](const unsigned int p, const unsigned int node, const double weight) {
+        for (unsigned int d = 0; d < dim; ++d)
+          result[dim * p + d] += weight * field[dim * node + d];
+      });
     return result;
   }
 

@@ -182,22 +182,23 @@ namespace talus
   /// instead of 3.91. Trials that only narrow the bracket give up early. Trials
   /// whose failure is the result may cut their steps as far as section
   /// Equilibrium allows.
-  EquilibriumLimits
-  StrengthReduction::limits(const double factor, EquilibriumLimits limits) const
+  StaticOptions
+  StrengthReduction::options(const double factor, StaticOptions options) const
   {
-    limits.allowed_imbalance =
+    options.allowed_imbalance =
       allowed_imbalance_ > 0. ? allowed_imbalance_ : 0.02 * tolerance_;
-    limits.contact_tolerance = 0.1 * limits.allowed_imbalance;
-    limits.facet_tolerance   = trial_facet_tolerance;
+    options.contact_tolerance = 0.1 * options.allowed_imbalance;
+    options.facet_tolerance   = trial_facet_tolerance;
     // No state with less strength to start from: the full load must be applied.
     if (lower_ == 0.)
-      return limits;
-    limits.n_load_steps = 1;
-    const bool decides  = factor - lower_ <= nearby * tolerance_ * lower_;
-    limits.max_failures = decides ? 20 : 2;
-    limits.smallest_step =
-      decides ? std::min(smallest_step_, limits.smallest_step) : smallest_step_;
-    return limits;
+      return options;
+    options.n_load_steps  = 1;
+    const bool decides    = factor - lower_ <= nearby * tolerance_ * lower_;
+    options.max_failures  = decides ? 20 : 2;
+    options.smallest_step = decides
+                              ? std::min(smallest_step_, options.smallest_step)
+                              : smallest_step_;
+    return options;
   }
 
 

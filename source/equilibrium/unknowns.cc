@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/equilibrium/unknowns.h>
 
-#include <talus/base/assertion.h>
-
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
@@ -77,11 +75,8 @@ namespace talus
   void
   Unknowns<dim>::constrain(const std::vector<unsigned char> &held)
   {
-    TalusAssert(held.size() == active_nodes_.size(),
-                dealii::ExcDimensionMismatch(held.size(),
-                                             active_nodes_.size()));
-    for (unsigned int k = 0; k < active_nodes_.size(); ++k)
-      records_[width * std::size_t(active_nodes_[k]) + 1] = held[k];
+    for (const unsigned int node : active_nodes_)
+      records_[width * std::size_t(node) + 1] = held[node];
     exchange_of_records_.copy_to_ghosts(records_.data());
   }
 

@@ -25,11 +25,20 @@ namespace talus
 
 
 
+  /// Return whether points and nodes are those of the last call on all ranks,
+  /// and remember them. Collective.
   template <int dim>
-  void
-  WellBalancedLoad<dim>::clear()
+  bool
+  WellBalancedLoad<dim>::is_current(const Points<dim>   &points,
+                                    const Unknowns<dim> &unknowns)
   {
-    *this = {};
+    std::vector<Point<dim>> place;
+    for (unsigned int p = 0; p < points.size(); ++p)
+      place.push_back(load_place(points, points.position, p));
+    const bool changes = place != place_ || unknowns.active_nodes() != nodes_;
+    place_             = std::move(place);
+    nodes_             = unknowns.active_nodes();
+    return !Utilities::MPI::logical_or(changes, unknowns.communicator());
   }
 
 
@@ -62,13 +71,15 @@ namespace talus
   /// with p' after the mean of B-bar and facet normals n into the soil.
   template <int dim>
   void
-  WellBalancedLoad<dim>::compute(const StaticProblem<dim>      &given,
-                                 const ShapeFunctionCache<dim> &weights,
-                                 const StaticFacets<dim>       &facets,
-                                 Unknowns<dim>                 &unknowns)
+  WellBalancedLoad<dim>::update(const StaticProblem<dim>      &given,
+                                const ShapeFunctionCache<dim> &weights,
+                                const StaticContact<dim>      &contact,
+                                Unknowns<dim>                 &unknowns)
   {
-    clear();
-    is_computed_ = true;
+    if (is_current(given.state.points, unknowns))
+      return;
+    forces_.clear();
+    n_nodes_without_ = 0;
     if (!given.mudline || has_moved(given))
       return;
     StaticProblem<dim> problem = given;
@@ -83,7 +94,7 @@ namespace talus
     for (double &force : forces_)
       force = -force;
     add_pressure_gradient(weights);
-    facets.add_pressure(
+    contact.add_pressure(
       [&](const Point<dim> &x) {
         const double height = problem.mudline(x);
         return height > x[1] ? unit_weight_ * (height - x[1]) : 0.;
@@ -205,19 +216,12 @@ namespace talus
   WellBalancedLoad<dim>::add_pressure_gradient(
     const ShapeFunctionCache<dim> &weights)
   {
-    for (unsigned int c = 0; c < weights.cells().size(); ++c)
-      {
-        const Batch &cell  = weights.cells()[c];
-        const auto   patch = weights.patch(c);
-        for (unsigned int p = cell.begin; p < cell.end; ++p)
-          {
-            const auto *weight = weights.of_point(c, p - cell.begin);
-            for (unsigned int a = 0; a < patch.n_nodes; ++a)
-              for (unsigned int d = 0; d < dim; ++d)
-                forces_[dim * std::size_t(patch.nodes[a]) + d] +=
-                  volume_[p] * weight[a].value * gradient_[p][d];
-          }
-      }
+    weights.for_each_weight(
+      [&](const unsigned int p, const unsigned int node, const double weight) {
+        for (unsigned int d = 0; d < dim; ++d)
+          forces_[dim * std::size_t(node) + d] +=
+            volume_[p] * weight * gradient_[p][d];
+      });
   }
 
 
@@ -248,28 +252,20 @@ namespace talus
                                         Unknowns<dim> &unknowns) const
   {
     const Points<dim>  &points = problem.state.points;
-    std::vector<double> sums   = unknowns.field(); // error S V, S V
-    for (unsigned int c = 0; c < weights.cells().size(); ++c)
-      {
-        const Batch       &cell  = weights.cells()[c];
-        const auto         patch = weights.patch(c);
-        const unsigned int k     = points.segments()[cell.first_segment].cell;
-        const double       h     = problem.state.grid.cells()[k].size;
-        for (unsigned int p = cell.begin; p < cell.end; ++p)
-          {
-            const auto  *weight = weights.of_point(c, p - cell.begin);
-            const double error  = (share_of_weight * unit_weight_ * h +
-                                  share_of_pressure * pressure_[p]) *
-                                 std::pow(h, dim - 1);
-            for (unsigned int a = 0; a < patch.n_nodes; ++a)
-              {
-                const double share = volume_[p] * weight[a].value;
-                double      *sum   = &sums[dim * std::size_t(patch.nodes[a])];
-                sum[0] += share * error;
-                sum[1] += share;
-              }
-          }
-      }
+    std::vector<double> error(points.size()); // by point, N
+    points.for_each_point([&](const Segment &segment, const unsigned int p) {
+      const double h = problem.state.grid.cells()[segment.cell].size;
+      error[p]       = (share_of_weight * unit_weight_ * h +
+                  share_of_pressure * pressure_[p]) *
+                 std::pow(h, dim - 1);
+    });
+    std::vector<double> sums = unknowns.field(); // error S V, S V
+    weights.for_each_weight(
+      [&](const unsigned int p, const unsigned int node, const double weight) {
+        double *sum = &sums[dim * std::size_t(node)];
+        sum[0] += volume_[p] * weight * error[p];
+        sum[1] += volume_[p] * weight;
+      });
     unknowns.add_to_owners(sums);
     for (std::size_t i = 0; i < sums.size(); i += dim)
       sums[i] = (sums[i + 1] > 0. ? sums[i] / sums[i + 1] : 0.);
@@ -300,23 +296,17 @@ namespace talus
           is_large[i] = 1.;
       }
     unknowns.copy_to_ghosts(is_large);
-    for (unsigned int c = 0; c < weights.cells().size(); ++c)
-      {
-        const Batch &cell  = weights.cells()[c];
-        const auto   patch = weights.patch(c);
-        for (unsigned int p = cell.begin; p < cell.end; ++p)
-          {
-            const auto *weight  = weights.of_point(c, p - cell.begin);
-            double      largest = 0.;
-            for (unsigned int a = 0; a < patch.n_nodes; ++a)
-              if (weight[a].value > 0.)
-                largest = std::max(largest,
-                                   is_large[dim * std::size_t(patch.nodes[a])]);
-            for (unsigned int a = 0; a < patch.n_nodes; ++a)
-              if (weight[a].value > 0.)
-                touches[dim * std::size_t(patch.nodes[a])] += largest;
-          }
-      }
+    std::vector<double> largest(volume_.size(), 0.); // by point
+    weights.for_each_weight(
+      [&](const unsigned int p, const unsigned int node, const double weight) {
+        if (weight > 0.)
+          largest[p] = std::max(largest[p], is_large[dim * std::size_t(node)]);
+      });
+    weights.for_each_weight(
+      [&](const unsigned int p, const unsigned int node, const double weight) {
+        if (weight > 0.)
+          touches[dim * std::size_t(node)] += largest[p];
+      });
     unknowns.add_to_owners(touches);
     for (const unsigned int node : unknowns.active_nodes())
       if (const std::size_t i = dim * std::size_t(node);

@@ -55,7 +55,6 @@ namespace talus
   void
   StaticSolver<dim>::begin_stage()
   {
-    equilibrium_.forget_well_balanced_load();
     problem_.contact.slip().begin_step(state_.communicator());
     if (is_first_rank(state_.communicator()))
       n_table_bytes_ = table_.length();
@@ -83,87 +82,39 @@ namespace talus
 
   /// Apply the load from zero to full. With large strain the points move: after
   /// each load step points are relocated and the mesh is adapted, so that the
-  /// next step begins on suitable nodes. With small strain nothing moves.
-  /// Collective.
+  /// next step begins on suitable nodes. With small strain nothing moves, which
+  /// keeps the shape for which a factor of safety is sought.
+  ///
+  /// In a trial the soil was in balance and may have become weaker. First a
+  /// load step without displacement returns the stress to the new yield
+  /// surface, and the resulting imbalance is the load. Collective.
   template <int dim>
   bool
-  StaticSolver<dim>::find(const StrainMeasure measure, const Label &label)
+  StaticSolver<dim>::find(const StaticOptions &options, const Label &label)
   {
-    equilibrium_.begin(measure);
+    equilibrium_.begin(options);
+    if (label.is_trial)
+      {
+        StaticProblem<dim> before = problem();
+        equilibrium_.return_stress(before);
+      }
     while (!equilibrium_.is_balanced())
       {
-        StepNote note;
-        if (!take_load_step(label, note))
+        StaticProblem<dim> now = problem();
+        StepNote           note;
+        if (!equilibrium_.advance(now, [&](const auto &progress) {
+              return observe(progress, label, note);
+            }))
           return false;
-        if (!note.residuals.empty())
+        if (!label.is_trial && !note.residuals.empty())
           tell(note);
-        if (measure == StrainMeasure::large)
+        if (options.measure == StrainMeasure::large)
           {
             mesh_.relocate_all();
             mesh_.adapt();
           }
       }
     return true;
-  }
-
-
-
-  /// The soil was in balance and has become weaker. First a load step without
-  /// displacement returns the stress to the new yield surface, and the
-  /// resulting imbalance is the load. Small strain keeps the shape for which
-  /// the factor of safety is sought. Load steps of trials are written to
-  /// newton.csv, not to the log. Collective.
-  template <int dim>
-  bool
-  StaticSolver<dim>::find_again(const EquilibriumLimits &limits,
-                                const Label             &label)
-  {
-    equilibrium_.begin(StrainMeasure::small, limits);
-    StaticProblem<dim> before = problem();
-    equilibrium_.return_stress(before);
-    return take_all_steps(label);
-  }
-
-
-
-  template <int dim>
-  bool
-  StaticSolver<dim>::find_with_weight(const Label &label)
-  {
-    EquilibriumLimits limits = equilibrium_.limits(StrainMeasure::small);
-    limits.is_well_balanced  = false;
-    equilibrium_.begin(StrainMeasure::small, limits);
-    return take_all_steps(label);
-  }
-
-
-
-  /// Take load steps until balance. Returns whether balance was found; nothing
-  /// is written to the log.
-  template <int dim>
-  bool
-  StaticSolver<dim>::take_all_steps(const Label &label)
-  {
-    while (!equilibrium_.is_balanced())
-      {
-        StepNote note;
-        if (!take_load_step(label, note))
-          return false;
-      }
-    return true;
-  }
-
-
-
-  /// Returns false if no step succeeds, however small.
-  template <int dim>
-  bool
-  StaticSolver<dim>::take_load_step(const Label &label, StepNote &note)
-  {
-    StaticProblem<dim> now = problem();
-    return equilibrium_.advance(now, [&](const auto &progress) {
-      return observe(progress, label, note);
-    });
   }
 
 
@@ -251,7 +202,7 @@ namespace talus
     for (unsigned int i = 0; i < points.n_arrays(); ++i)
       saved.columns.emplace_back(points.data(i),
                                  points.data(i) + points.size());
-    saved.contact      = equilibrium_.contact();
+    saved.contact      = equilibrium_.newton().equations().contact();
     saved.facet_forces = problem_.contact.save();
     saved.slip         = problem_.contact.slip().rows();
     return saved;
@@ -290,7 +241,6 @@ namespace talus
     send_points_to_owners(state_.points, state_.grid);
     mesh_.insert_points();
     mesh_.adapt();
-    equilibrium_.forget_well_balanced_load();
   }
 
 

@@ -146,7 +146,8 @@ namespace talus
     const typename StaticSolver<dim>::Saved &before)
   {
     log_.say(LogLevel::result, "Stage 'equilibrium':");
-    if (!solver_.find(equilibrium().measure(), label(1.)) &&
+    if (!solver_.find(equilibrium().options(equilibrium().measure()),
+                      {stages_.number(), 1.}) &&
         !solver_.is_stopped())
       {
         if (!stages_.contain(Stage::strength_reduction))
@@ -212,7 +213,7 @@ namespace talus
   void
   StaticStages<dim>::continue_with_dynamics()
   {
-    if (!equilibrium().limits(StrainMeasure::small).is_well_balanced)
+    if (!equilibrium().options(StrainMeasure::small).is_well_balanced)
       return;
     solver_.begin_stage();
     let_weight_act();
@@ -236,7 +237,9 @@ namespace talus
     // The last static stage, which is done if a resumed run adds the dynamics.
     const unsigned int stage =
       stages_.number() - (stages_.next_is_static() ? 0 : 1);
-    if (solver_.find_with_weight({stage, 1.}))
+    StaticOptions options    = equilibrium().options(StrainMeasure::small);
+    options.is_well_balanced = false;
+    if (solver_.find(options, {stage, 1., true}))
       log_.say(LogLevel::result,
                text("For the dynamics the weight acts without the correction "
                     "of the well-balanced load; balance was found in ",
@@ -335,7 +338,8 @@ namespace talus
         solver_.restore_and_relocate(before);
         divide_strength(factor);
         const bool stands =
-          solver_.find(measure_of_stronger_soil(), label(factor));
+          solver_.find(equilibrium().options(measure_of_stronger_soil()),
+                       {stages_.number(), factor});
         if (solver_.is_stopped())
           return;
         strength_reduction_.record(factor, stands);
@@ -451,10 +455,9 @@ namespace talus
   StaticStages<dim>::is_stable_with(const double factor)
   {
     divide_strength(factor);
-    return solver_.find_again(
-      strength_reduction_.limits(factor,
-                                 equilibrium().limits(StrainMeasure::small)),
-      label(factor));
+    return solver_.find(strength_reduction_.options(
+                          factor, equilibrium().options(StrainMeasure::small)),
+                        {stages_.number(), factor, true});
   }
 
 

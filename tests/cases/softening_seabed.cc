@@ -12,6 +12,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iomanip>
+#include <regex>
 #include <utility>
 
 using namespace talus;
@@ -254,7 +255,7 @@ namespace softening_seabed_test
           }
         catch (const ExcUser &error)
           {
-            words = error.what();
+            words = std::regex_replace(error.what(), std::regex("\\s+"), " ");
           }
         const double share =
           bisect([&](

@@ -119,7 +119,7 @@ namespace
     find(const StrainMeasure measure = StrainMeasure::small)
     {
       runs.clear();
-      equilibrium.begin(measure);
+      equilibrium.begin(equilibrium.options(measure));
       while (!equilibrium.is_balanced())
         {
           StaticProblem<dim> all = problem();
@@ -177,7 +177,7 @@ namespace
                       statics.transfer.box_shape(),
                       unknowns);
       unknowns.constrain(
-        std::vector<unsigned char>(unknowns.active_nodes().size(), 0));
+        std::vector<unsigned char>(statics.grid.n_owned_nodes(), 0));
     }
 
     /// A field with random components at the nodes with unknowns.

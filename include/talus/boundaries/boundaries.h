@@ -207,10 +207,10 @@ namespace talus
                  const dealii::Tensor<1, dim> &impulse,
                  BoundaryWork<dim>            &work);
 
-    /// Apply the walls to the velocities of the active nodes on the faces, after
-    /// the momentum update. Velocities belong to the half step, t + dt/2. Return
-    /// energies and impulses of the boundaries, including the tractions of
-    /// add_tractions().
+    /// Apply the walls to the velocities of the active nodes on the faces,
+    /// after the momentum update. Velocities belong to the half step, t + dt/2.
+    /// Return energies and impulses of the boundaries, including the tractions
+    /// of add_tractions().
     /// @param nodes fields of the nodes
     /// @param grid background grid
     /// @param t time at the beginning of the step, s

@@ -146,11 +146,18 @@ namespace talus
       region_factor_ = factor;
     }
 
-    /// Whether friction at a place changes by the slip of soil over the place.
+    /// Whether slip takes a part of the maximum shear stress away.
+    bool
+    softens() const
+    {
+      return slip_to_remould_ > 0;
+    }
+
+    /// Whether a rule of limit() depends on the slip of the place.
     bool
     changes_by_slip() const
     {
-      return slip_to_remould_ > 0;
+      return softens();
     }
 
     /// Share of the maximum shear stress left after a slip, m [-]:

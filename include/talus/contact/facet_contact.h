@@ -171,9 +171,9 @@ namespace talus
       return constraints_;
     }
 
-    /// Set the impulses of facets().owned() from the forces of soil at rest, one
-    /// impulse per facet, each for a duration of 1 s. The first step scales the
-    /// impulses to the time step.
+    /// Set the impulses of facets().owned() from the forces of soil at rest,
+    /// one impulse per facet, each for a duration of 1 s. The first step scales
+    /// the impulses to the time step.
     void
     set_forces(const std::vector<FacetImpulse<dim>> &forces);
 

@@ -22,26 +22,6 @@ namespace talus
 
 
 
-  /// Limits of one search for equilibrium. The defaults are the parameters of
-  /// section Equilibrium (Equilibrium::limits()); strength reduction changes
-  /// them.
-  struct EquilibriumLimits
-  {
-    unsigned int n_load_steps;      ///< number of equal load steps
-    double       smallest_step;     ///< smallest fraction of the load [-]
-    double       allowed_imbalance; ///< limit for soil in balance [-]
-    /// Whether to subtract the error of the weight (WellBalancedLoad).
-    bool is_well_balanced = true;
-    /// Newton::Parameters::contact_tolerance [-].
-    double contact_tolerance = 0.;
-    /// Newton::Parameters::facet_tolerance [-].
-    double facet_tolerance = 1e-5;
-    /// Number of load steps that may fail and be cut [-].
-    unsigned int max_failures = -1;
-  };
-
-
-
   /// Allowed values of parameters 'Smallest load step'. A smaller fraction of a
   /// load would be comparable with the residual left by Newton's method, and 0
   /// would let a failing step be halved without end.
@@ -79,20 +59,14 @@ namespace talus
     check(const Materials<dim>           &materials,
           const std::vector<std::string> &names_of_bodies) const;
 
-    /// Limits of the search as given by the parameters, for the strain measure.
-    EquilibriumLimits
-    limits(StrainMeasure measure) const;
+    /// Options of the search as given by the parameters, with @p measure.
+    StaticOptions
+    options(StrainMeasure measure) const;
 
     /// Start a new search from zero load, whatever came before. At small strain
     /// the soil does not move.
     void
-    begin(StrainMeasure measure)
-    {
-      begin(measure, limits(measure));
-    }
-
-    void
-    begin(StrainMeasure measure, const EquilibriumLimits &limits);
+    begin(const StaticOptions &options);
 
     /// Take one load step. At large strain, points may afterwards be in
     /// different cells. Returns false if the step fails at the smallest length
@@ -142,20 +116,6 @@ namespace talus
       return n_steps_;
     }
 
-    /// Compute the well-balanced load again, as points or mesh have changed.
-    void
-    forget_well_balanced_load()
-    {
-      newton_.forget_well_balanced_load();
-    }
-
-    /// Contact with seabed and obstacles after the last load step.
-    const StaticContact<dim> &
-    contact() const
-    {
-      return newton_.equations().contact();
-    }
-
     /// Contact with seabed and obstacles; change it only between load steps,
     /// together with the points.
     StaticContact<dim> &
@@ -179,8 +139,8 @@ namespace talus
     }
 
   private:
-    typename Newton<dim>::Parameters
-    parameters_of_step(bool has_obstacles) const;
+    StaticOptions
+    options_of_step(bool has_obstacles) const;
     bool
     is_falling(unsigned int n_steps) const;
     bool
@@ -191,19 +151,15 @@ namespace talus
     take_step(StaticProblem<dim> &problem, const Observer &observe);
 
     // Parameters
-    std::string                      measure_           = "small";
-    unsigned int                     n_load_steps_      = 1;
-    double                           smallest_step_     = 1e-3;
-    unsigned int                     largest_settling_  = 100;
-    double                           allowed_imbalance_ = 0.;
-    typename Newton<dim>::Parameters newton_parameters_;
-    bool                             is_well_balanced_ = true;
-    LinearSolver                     linear_solver_;
+    std::string   measure_          = "small";
+    unsigned int  largest_settling_ = 100;
+    StaticOptions parameters_;
+    LinearSolver  linear_solver_;
 
     Newton<dim>         newton_;
     double              load_ = 0;
     double              step_ = 1;
-    EquilibriumLimits   limits_{};
+    StaticOptions       options_; ///< options of the current search
     unsigned int        n_steps_    = 0;
     unsigned int        n_settling_ = 0; ///< steps taken at full load
     unsigned int        n_failures_ = 0; ///< load steps that failed

@@ -30,21 +30,6 @@ namespace talus
   class Newton
   {
   public:
-    struct Parameters
-    {
-      StrainMeasure measure   = StrainMeasure::small;
-      double        tolerance = 1e-8; ///< relative residual [-]
-      /// Relative residual that suffices for an update of the contact states
-      /// [-]; the states are updated again at the solution.
-      double contact_tolerance = 0.;
-      /// Distance by which facets of obstacles may give way in a load step,
-      /// over the largest displacement [-].
-      double       facet_tolerance    = 1e-5;
-      unsigned int largest_iterations = 30;
-      double       ghost_penalty      = 0.01; ///< gamma [-]
-      bool         is_well_balanced   = true; ///< at small strain only
-    };
-
     /// Outcome of solve().
     struct Outcome
     {
@@ -64,7 +49,7 @@ namespace talus
 
     /// Set up the unknowns for the current state of the soil. Collective.
     void
-    begin(StaticProblem<dim> &problem, const Parameters &parameters);
+    begin(StaticProblem<dim> &problem, const StaticOptions &options);
 
     /// Solve for the displacements of a load step that removes the fraction
     /// @p share of the imbalance. If the solution fails or @p observe stops it,
@@ -87,13 +72,6 @@ namespace talus
     /// Points must be unchanged since begin(). Collective.
     std::vector<double>
     mechanism(const Points<dim> &points) const;
-
-    /// See StaticEquations::forget_well_balanced_load().
-    void
-    forget_well_balanced_load()
-    {
-      equations_.forget_well_balanced_load();
-    }
 
     const StaticEquations<dim> &
     equations() const
@@ -145,7 +123,7 @@ namespace talus
     failure(const std::string &reason) const;
 
     const LinearSolver  &linear_solver_;
-    Parameters           parameters_;
+    StaticOptions        options_;
     StaticEquations<dim> equations_;
     double               extent_ = 0; ///< diagonal of the mesh, m
 

@@ -70,6 +70,19 @@ namespace talus
              k * std::size_t(patch(c).n_nodes);
     }
 
+    /// Call action(point, node, value) for all weights.
+    template <typename Action>
+    void
+    for_each_weight(const Action &action) const
+    {
+      for (unsigned int c = 0; c < cells_.size(); ++c)
+        for (unsigned int p = cells_[c].begin; p < cells_[c].end; ++p)
+          for (unsigned int a = 0; a < patch(c).n_nodes; ++a)
+            action(p,
+                   patch(c).nodes[a],
+                   of_point(c, p - cells_[c].begin)[a].value);
+    }
+
   private:
     /// Contribution of a point to a node; several may belong to the same pair.
     struct Share

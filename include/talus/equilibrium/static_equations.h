@@ -19,11 +19,11 @@ namespace talus
 {
   /// Discrete equations of one load step: residual and tangent at given
   /// displacements of the nodes. The residual is
-  ///   r = f_ext - (1 - share) (f_ext + c - f_int(0)) + friction - f_int(u)
+  ///   r = f_ext - (1 - share) (f_ext + c(0) - f_int(0)) + c(u) - f_int(u)
   ///       - ghost,
-  /// where c is the previous force of the seabed on the soil,
-  /// f_ext + c - f_int(0) the imbalance at the start of the step, and `share`
-  /// the fraction of the imbalance removed in the step. With a well-balanced
+  /// where c is the force of contact on the soil, f_ext + c(0) - f_int(0) the
+  /// imbalance at the start of the step, and `share` the fraction of the
+  /// imbalance removed in the step. With a well-balanced
   /// load, f_ext is the load minus its error E. Fields have dim components for
   /// each node of Unknowns.
   template <int dim>
@@ -31,24 +31,8 @@ namespace talus
   {
   public:
     /// Set up the equations for the current state of the soil. Collective.
-    /// @param problem Soil, loads and boundaries.
-    /// @param measure Strain measure.
-    /// @param ghost_penalty Factor gamma of the ghost penalty [-].
-    /// @param is_well_balanced Whether to use WellBalancedLoad; ignored at
-    ///   large strain.
     void
-    begin(StaticProblem<dim> &problem,
-          StrainMeasure       measure,
-          double              ghost_penalty,
-          bool                is_well_balanced = false);
-
-    /// Let the next begin() compute the well-balanced load again, as points or
-    /// mesh have changed.
-    void
-    forget_well_balanced_load()
-    {
-      well_balanced_.clear();
-    }
+    begin(StaticProblem<dim> &problem, const StaticOptions &options);
 
     /// Return whether the loads of this load step are well-balanced.
     bool
@@ -101,14 +85,14 @@ namespace talus
     solve_tangent(const LinearSolver        &linear_solver,
                   const std::vector<double> &residual);
 
-    /// Update the contact states after a solution with the displacements @p u,
-    /// m, and the @p residual, N; see StaticContact::update_active_set(). May
-    /// correct @p u. Returns the number of changes. Collective.
+    /// Update the contact after a solution with the displacements @p u, m, and
+    /// the @p residual, N; see StaticContact::update(). May correct @p u.
+    /// Returns the number of changes. Collective.
     unsigned int
-    update_contact(StaticProblem<dim>        &problem,
+    update_contact(const StaticProblem<dim>  &problem,
                    const std::vector<double> &residual,
                    std::vector<double>       &u,
-                   double                     facet_tolerance);
+                   double                     tolerance);
 
     /// See StaticContact::stick_again(). Collective.
     unsigned int
@@ -129,16 +113,17 @@ namespace talus
     double
     imbalance() const;
 
-    /// Largest component of the unbalanced force at a node, N, and its place in
-    /// words. Collective.
+    /// Largest component of @p force, N, at the free unknowns of all ranks, and
+    /// the place of the node in words. Collective.
     std::pair<double, std::string>
-    largest_imbalance() const;
+    largest(const std::vector<double> &force) const;
 
-    /// Set @p largest to the largest component of @p force, N, at the free
-    /// unknowns of all ranks. Returns the place of the node in words.
-    /// Collective.
-    std::string
-    where_largest(const std::vector<double> &force, double &largest) const;
+    /// largest() of the unbalanced force. Collective.
+    std::pair<double, std::string>
+    largest_imbalance() const
+    {
+      return largest(unbalanced_);
+    }
 
     /// Interpolate a nodal field to the points by the weights of the load step.
     /// Points must be unchanged since begin(). Returns dim components for each
@@ -176,19 +161,14 @@ namespace talus
     bool
     is_symmetric() const
     {
-      return measure_ == StrainMeasure::small &&
-             contact_.facets().is_symmetric();
+      return measure_ == StrainMeasure::small && contact_.is_symmetric();
     }
 
   private:
     void
     make_pattern();
     void
-    make_rigid_modes(const Grid<dim> &grid);
-    void
     find_forces(StaticProblem<dim> &problem);
-    std::vector<double>
-    out_of_balance() const;
     void
     assemble_matrix();
     RigidModes
@@ -205,14 +185,14 @@ namespace talus
 
     StiffnessMatrix<dim>            matrix_;
     LuFactorization                 factorization_;
-    RigidModes                      modes_;
-    std::vector<dealii::Point<dim>> places_;
+    std::vector<dealii::Point<dim>> places_; ///< places of the owned nodes, m
+    dealii::Point<dim>              centre_; ///< centre of rigid rotations, m
 
     // Fields at the nodes
-    std::vector<double> unbalanced_;    ///< f_ext - E - f_int(0), N
-    std::vector<double> internal_;      ///< f_int(0), N
-    std::vector<double> of_facets_;     ///< force of obstacles at u = 0, N
-    std::vector<double> target_;        ///< value required of f_int + ghost, N
+    std::vector<double> contact_at_start_; ///< c(0), N
+    std::vector<double> unbalanced_;       ///< f_ext - E + c(0) - f_int(0), N
+    std::vector<double> internal_;         ///< f_int(0), N
+    std::vector<double> target_; ///< value required of f_int + ghost - c, N
     double              reference_ = 0; ///< N
     double              loads_     = 0; ///< Euclidean norm of the loads, N
   };

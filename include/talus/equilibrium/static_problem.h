@@ -31,6 +31,34 @@ namespace talus
 
 
 
+  /// Options of one search for equilibrium. Equilibrium::options() returns the
+  /// parameters of section Equilibrium; strength reduction changes them.
+  struct StaticOptions
+  {
+    StrainMeasure measure       = StrainMeasure::small;
+    unsigned int  n_load_steps  = 1;      ///< number of equal load steps
+    double        smallest_step = 1e-3;   ///< smallest fraction of the load [-]
+    double        allowed_imbalance = 0.; ///< limit for soil in balance [-]
+    /// Whether to subtract the error of the weight (WellBalancedLoad); ignored
+    /// at large strain.
+    bool is_well_balanced = true;
+    /// Number of load steps that may fail and be cut [-].
+    unsigned int max_failures = -1;
+
+    // Newton's method
+    double tolerance = 1e-8; ///< relative residual [-]
+    /// Relative residual that suffices for an update of the contact states [-];
+    /// the states are updated again at the solution.
+    double contact_tolerance = 0.;
+    /// Distance by which facets of obstacles may give way in a load step, over
+    /// the largest displacement [-].
+    double       facet_tolerance    = 1e-5;
+    unsigned int largest_iterations = 30;
+    double       ghost_penalty      = 0.01; ///< gamma [-]
+  };
+
+
+
   /// Compute mass, volume and force at the nodes as in the explicit scheme. The
   /// force is the imbalance before reactions of walls and seabed. Collective.
   template <int dim>

@@ -77,14 +77,14 @@ namespace talus
       return upper_ > 0. && upper_ <= 1.;
     }
 
-    /// Limits of the search for equilibrium with @p factor, derived from
-    /// @p limits of section Equilibrium. If the soil stands with a smaller
+    /// Options of the search for equilibrium with @p factor, derived from
+    /// @p options of section Equilibrium. If the soil stands with a smaller
     /// factor, the load is applied in one step, which is halved at most to the
     /// smallest load step of this section. If the factor is within the
     /// tolerance, where failure decides, the smallest load step of section
     /// Equilibrium applies.
-    EquilibriumLimits
-    limits(double factor, EquilibriumLimits limits) const;
+    StaticOptions
+    options(double factor, StaticOptions options) const;
 
     /// Return whether the strength of the seabed is divided, too.
     bool

@@ -30,7 +30,7 @@ namespace talus
            double                  mass_cutoff);
 
     /// Hold components of the owned nodes, with zero displacement: bit d of
-    /// held[k] holds component d of active_nodes()[k]. Collective.
+    /// held[node] holds component d. Collective.
     void
     constrain(const std::vector<unsigned char> &held);
 

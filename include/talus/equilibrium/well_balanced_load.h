@@ -3,7 +3,7 @@
 #define talus_equilibrium_well_balanced_load_h
 
 #include <talus/equilibrium/shape_function_cache.h>
-#include <talus/equilibrium/static_facets.h>
+#include <talus/equilibrium/static_contact.h>
 #include <talus/equilibrium/static_problem.h>
 
 #include <vector>
@@ -24,25 +24,14 @@ namespace talus
   class WellBalancedLoad
   {
   public:
-    /// Compute E for the current points, weights and facets. E is empty without
-    /// a mudline, without a weight along -y, or if the soil has moved away from
-    /// its initial mudline. Collective.
+    /// Compute E, unless points and nodes are as in the last call. E is empty
+    /// without a mudline, without a weight along -y, or if the soil has moved
+    /// away from its initial mudline. Collective.
     void
-    compute(const StaticProblem<dim>      &problem,
-            const ShapeFunctionCache<dim> &weights,
-            const StaticFacets<dim>       &facets,
-            Unknowns<dim>                 &unknowns);
-
-    /// Discard E, as points or mesh have changed.
-    void
-    clear();
-
-    /// Return whether compute() was called since the last clear().
-    bool
-    is_computed() const
-    {
-      return is_computed_;
-    }
+    update(const StaticProblem<dim>      &problem,
+           const ShapeFunctionCache<dim> &weights,
+           const StaticContact<dim>      &contact,
+           Unknowns<dim>                 &unknowns);
 
     /// Error E at the nodes, dim components each, N; empty if there is none.
     /// Valid only at nodes owned by this rank.
@@ -60,6 +49,8 @@ namespace talus
     }
 
   private:
+    bool
+    is_current(const Points<dim> &points, const Unknowns<dim> &unknowns);
     void
     find_pressure(const StaticProblem<dim> &problem);
     bool
@@ -85,10 +76,11 @@ namespace talus
                    const ShapeFunctionCache<dim> &weights,
                    Unknowns<dim>                 &unknowns) const;
 
-    bool                                is_computed_     = false;
     double                              unit_weight_     = 0; ///< N/m^dim
     unsigned long                       n_nodes_without_ = 0;
     std::vector<double>                 forces_;
+    std::vector<unsigned int>           nodes_;    ///< nodes with unknowns
+    std::vector<dealii::Point<dim>>     place_;    ///< by point, m
     std::vector<double>                 volume_;   ///< by point, m^dim
     std::vector<double>                 pressure_; ///< by point, Pa
     std::vector<dealii::Tensor<1, dim>> gradient_; ///< pressure gradient, Pa/m

@@ -50,30 +50,20 @@ namespace talus
       return equilibrium_.is_stopped();
     }
 
-    /// Description of a search: number of the stage, and factor by which
-    /// strengths are divided [-].
+    /// Description of a search for newton.csv and log.
     struct Label
     {
-      unsigned int stage;
-      double       strength_factor;
+      unsigned int stage;           ///< one-based number of the stage
+      double       strength_factor; ///< factor that divides strengths [-]
+      /// Whether the search starts from a balance, with other strengths or
+      /// loads. Load steps are then written to newton.csv only.
+      bool is_trial = false;
     };
 
     /// Search for balance, starting from the current state without loads.
     /// Returns false if there is no balance; see no_equilibrium(). Collective.
     bool
-    find(StrainMeasure measure, const Label &label);
-
-    /// Search for balance again after a change of strengths, starting from a
-    /// balance at full load, in small strain. Returns whether a balance within
-    /// @p limits was found. Collective.
-    bool
-    find_again(const EquilibriumLimits &limits, const Label &label);
-
-    /// Search for balance with the weight as used in the dynamics, starting
-    /// from a balance with a well-balanced load, in small strain. Returns
-    /// whether a balance was found. Collective.
-    bool
-    find_with_weight(const Label &label);
+    find(const StaticOptions &options, const Label &label);
 
     /// Sentence with the reason why find() failed.
     std::string
@@ -134,10 +124,6 @@ namespace talus
 
     StaticProblem<dim>
     problem();
-    bool
-    take_all_steps(const Label &label);
-    bool
-    take_load_step(const Label &label, StepNote &note);
     bool
     observe(const EquilibriumProgress &progress,
             const Label               &label,

@@ -85,12 +85,6 @@ namespace talus
     list_state(StateList &list);
 
   private:
-    typename StaticSolver<dim>::Label
-    label(const double strength_factor) const
-    {
-      return {stages_.number(), strength_factor};
-    }
-
     void
     find_equilibrium(const typename StaticSolver<dim>::Saved &before);
     void

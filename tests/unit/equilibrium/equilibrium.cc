@@ -255,7 +255,7 @@ TEST(EquilibriumTest, LoadStepsOfElasticSoilAddUp)
                    in_section("Equilibrium",
                               text("set Load steps = ", n_steps)));
       std::vector<double> loads;
-      bank.equilibrium.begin(StrainMeasure::small);
+      bank.equilibrium.begin(bank.equilibrium.options(StrainMeasure::small));
       while (!bank.equilibrium.is_balanced())
         {
           StaticProblem<2> problem = bank.problem();

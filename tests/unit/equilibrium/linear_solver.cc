@@ -31,9 +31,9 @@ namespace
       this->load(gravity);
       parts.emplace(*this, StrainMeasure::small, this->constants.mass_cutoff);
       auto                      &unknowns = parts->unknowns;
-      std::vector<unsigned char> held;
+      std::vector<unsigned char> held(this->grid.n_owned_nodes(), 0);
       for (const unsigned int node : unknowns.active_nodes())
-        held.push_back(this->grid.faces_of_node(node) & 4 ? 7 : 0);
+        held[node] = (this->grid.faces_of_node(node) & 4 ? 7 : 0);
       unknowns.constrain(held);
       assemble();
     }
@@ -197,8 +197,7 @@ TEST(StiffnessMatrix, HoldsUnknowns)
   auto        &unknowns = block.parts->unknowns;
   const auto  &held     = block.matrix.matrix();
   SystemMatrix all;
-  unknowns.constrain(
-    std::vector<unsigned char>(unknowns.active_nodes().size(), 0));
+  unknowns.constrain(std::vector<unsigned char>(block.grid.n_owned_nodes(), 0));
   StiffnessMatrix<2> free;
   block.parts->make_full(free);
   block.parts->internal_forces.add_tangent(block.parts->weights, free);

@@ -53,9 +53,9 @@ namespace
     core.sort();
     core.scatter();
     unknowns.number(core.nodes, core.grid, 0.01);
-    std::vector<unsigned char> held;
+    std::vector<unsigned char> held(core.grid.n_owned_nodes(), 0);
     for (const unsigned int node : unknowns.active_nodes())
-      held.push_back(mask_of(core.grid, node));
+      held[node] = mask_of(core.grid, node);
     unknowns.constrain(held);
 
     Record record;

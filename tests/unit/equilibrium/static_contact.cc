@@ -155,6 +155,42 @@ TEST(StaticContactTest, BlockUnderUpwardLoadOpens)
 
 
 
+// Two seabeds meet in a corner, whose node is a place of both: neither force
+// counts twice, in any number of load steps.
+TEST(StaticContactTest, BlockInACornerOfTwoSeabeds)
+{
+  for (const unsigned int n_steps : {1, 4})
+    {
+      const Force   gravity = Point<2>(-0.6 * g, -g);
+      BlockOnSeabed block(seabed(0.2, 1e9, "set Left = seabed\n"), gravity, 0.);
+      StaticOptions options = block.equilibrium.options(StrainMeasure::small);
+      options.n_load_steps  = n_steps;
+      block.equilibrium.begin(options);
+      while (!block.equilibrium.is_balanced())
+        {
+          StaticProblem<2> all = block.problem();
+          ASSERT_TRUE(
+            block.equilibrium.advance(all, [](const auto &) { return true; }))
+            << block.equilibrium.failure();
+        }
+      StaticProblem<2> all = block.problem();
+      sum_forces(all);
+      const auto places = places_of_nodes(block.grid);
+      Force      reaction;
+      for (const unsigned int node : block.nodes.active_nodes())
+        if (block.nodes.mass(node) > block.constants.mass_cutoff)
+          {
+            if (places[node][0] == 0. || places[node][1] == 0.)
+              reaction -= block.force(node);
+            else
+              EXPECT_LT(block.force(node).norm(), 1e-8 * block.weight.norm());
+          }
+      EXPECT_LT((reaction + block.weight).norm(), 1e-8 * block.weight.norm());
+    }
+}
+
+
+
 // A block that its own weight spreads: friction is at its limit at the ends and
 // holds them back.
 TEST(StaticContactTest, FrictionIsWithinItsLimit)
@@ -206,8 +242,10 @@ TEST(StaticContactTest, FrictionIsWithinItsLimitAtEachLoadStep)
         Point<2>(0., -g),
         2.,
         "set Young's modulus = 1e6\nset Poisson's ratio = 0.45\n");
-      const double small = 1e-6 * block.weight.norm();
-      block.equilibrium.begin(StrainMeasure::small, {4, 1e-3, 1e-9});
+      const double  small   = 1e-6 * block.weight.norm();
+      StaticOptions options = block.equilibrium.options(StrainMeasure::small);
+      options.n_load_steps  = 4;
+      block.equilibrium.begin(options);
       for (unsigned int step = 1; step <= 4; ++step)
         {
           StaticProblem<2> all = block.problem();
@@ -275,63 +313,68 @@ namespace
       , parts(*this, StrainMeasure::small, constants.mass_cutoff)
     {
       const auto places = places_of_nodes(grid);
-      for (unsigned int k = 0; k < parts.unknowns.active_nodes().size(); ++k)
-        if (places[parts.unknowns.active_nodes()[k]] == Point<2>(3., 0.))
-          {
-            node  = parts.unknowns.active_nodes()[k];
-            place = k;
-          }
+      for (const unsigned int active : parts.unknowns.active_nodes())
+        if (places[active] == Point<2>(3., 0.))
+          node = active;
       const StaticProblem<2> all = problem();
       contact.begin(all, parts.unknowns, 1e6);
     }
 
-    /// Returns the number of changes; displacement becomes what
-    /// update_active_set() left.
-    unsigned int
-    update_active_set(const Force &reaction, Force &displacement)
+    /// Forces of contact at all nodes, N.
+    std::vector<double>
+    forces()
     {
-      auto forces = parts.unknowns.field(), u = forces;
+      auto forces = parts.unknowns.field();
+      contact.add_forces(1., parts.unknowns.field(), forces);
+      return forces;
+    }
+
+    /// Returns the number of changes; displacement becomes what update() left.
+    unsigned int
+    update(const Force &reaction, Force &displacement)
+    {
+      auto residual = forces(), u = parts.unknowns.field();
       for (const unsigned int n : parts.unknowns.active_nodes())
-        forces[2 * n + 1] = 100.;
+        residual[2 * n + 1] -= 100.;
+      residual[2 * node + 1] += 100.;
       for (unsigned int d = 0; d < 2; ++d)
         {
-          forces[2 * node + d] = reaction[d];
-          u[2 * node + d]      = displacement[d];
+          residual[2 * node + d] -= reaction[d];
+          u[2 * node + d] = displacement[d];
         }
       const StaticProblem<2> all = problem();
       const unsigned int     n =
-        contact.update_active_set(all, parts.unknowns, forces, u, 1e-5);
+        contact.update(all, parts.unknowns, residual, u, 1e-5);
       for (unsigned int d = 0; d < 2; ++d)
         displacement[d] = u[2 * node + d];
       return n;
     }
 
     unsigned int
-    update_active_set(const Force &reaction)
+    update(const Force &reaction)
     {
       Force none;
-      return update_active_set(reaction, none);
+      return update(reaction, none);
     }
 
     unsigned int
     held()
     {
       const StaticProblem<2> all = problem();
-      return contact.constrained(all, parts.unknowns)[place];
+      return contact.held(all, parts.unknowns)[node];
     }
 
-    double
-    friction() const
+    /// Force of contact at the node, N.
+    Force
+    force()
     {
-      auto forces = parts.unknowns.field();
-      contact.add_friction(forces);
-      EXPECT_EQ(forces[2 * node + 1], 0.);
-      return forces[2 * node];
+      const auto all = forces();
+      return Point<2>(all[2 * node], all[2 * node + 1]);
     }
 
     StepParts<2>     parts;
     StaticContact<2> contact;
-    unsigned int     node = 0, place = 0;
+    unsigned int     node = 0;
   };
 } // namespace
 
@@ -341,19 +384,22 @@ TEST(StaticContactTest, SticksUpToTheLimit)
 {
   NodeOnSeabed one;
   EXPECT_EQ(one.held(), 3u);
-  EXPECT_EQ(one.update_active_set(Point<2>(49.9, 100.)), 0u);
-  EXPECT_EQ(one.update_active_set(Point<2>(-49.9, 100.)), 0u);
-  EXPECT_EQ(one.held(), 3u);
-  EXPECT_EQ(one.friction(), 0.);
-  EXPECT_EQ(one.update_active_set(Point<2>(-60., 100.)), 1u);
+  for (const Force reaction :
+       {Point<2>(49.9, 100.), Point<2>(-49.9, 100.), Point<2>(0., 20.)})
+    {
+      EXPECT_EQ(one.update(reaction), 0u);
+      EXPECT_EQ(one.held(), 3u);
+      EXPECT_LT((one.force() - reaction).norm(), 1e-12);
+    }
+  EXPECT_EQ(one.update(Point<2>(-60., 100.)), 1u);
   EXPECT_EQ(one.held(), 2u);
-  EXPECT_NEAR(one.friction(), -50., 1e-12);
+  EXPECT_LT((one.force() - Point<2>(-50., 100.)).norm(), 1e-12);
   // The limit follows the normal force up to the cap times half a metre.
-  EXPECT_EQ(one.update_active_set(Point<2>(0., 120.)), 1u);
-  EXPECT_NEAR(one.friction(), -60., 1e-12);
-  EXPECT_EQ(one.update_active_set(Point<2>(0., 400.)), 1u);
-  EXPECT_NEAR(one.friction(), -75., 1e-12);
-  EXPECT_EQ(one.update_active_set(Point<2>(0., 500.)), 0u);
+  EXPECT_EQ(one.update(Point<2>(0., 120.)), 1u);
+  EXPECT_LT((one.force() - Point<2>(-60., 120.)).norm(), 1e-12);
+  EXPECT_EQ(one.update(Point<2>(0., 400.)), 1u);
+  EXPECT_LT((one.force() - Point<2>(-75., 400.)).norm(), 1e-12);
+  EXPECT_EQ(one.update(Point<2>(0., 500.)), 0u);
 }
 
 
@@ -362,12 +408,13 @@ TEST(StaticContactTest, SlipsAgainstTheFrictionOnly)
 {
   NodeOnSeabed one;
   Force        against = Point<2>(1e-4, 0.), along = Point<2>(-1e-4, 0.);
-  one.update_active_set(Point<2>(-60., 100.));
-  EXPECT_EQ(one.update_active_set(Point<2>(0., 100.), against), 0u);
+  one.update(Point<2>(-60., 100.));
+  EXPECT_EQ(one.update(Point<2>(0., 100.), against), 0u);
   EXPECT_EQ(one.held(), 2u);
-  EXPECT_EQ(one.update_active_set(Point<2>(0., 100.), along), 1u);
+  EXPECT_EQ(one.update(Point<2>(0., 100.), along), 1u);
   EXPECT_EQ(one.held(), 3u);
-  EXPECT_EQ(one.friction(), 0.);
+  EXPECT_EQ(one.update(Point<2>(30., 100.)), 0u);
+  EXPECT_LT((one.force() - Point<2>(30., 100.)).norm(), 1e-12);
 }
 
 
@@ -375,12 +422,13 @@ TEST(StaticContactTest, SlipsAgainstTheFrictionOnly)
 TEST(StaticContactTest, LiftsOffAndComesDown)
 {
   NodeOnSeabed one;
-  EXPECT_EQ(one.update_active_set(Point<2>(0., -1.)), 1u);
+  EXPECT_EQ(one.update(Point<2>(0., -1.)), 1u);
   EXPECT_EQ(one.held(), 0u);
+  EXPECT_EQ(one.force().norm(), 0.);
   Force up = Point<2>(1e-3, 1e-3), into = Point<2>(1e-3, -1e-3);
-  EXPECT_EQ(one.update_active_set(Point<2>(0., 0.), up), 0u);
+  EXPECT_EQ(one.update(Point<2>(0., 0.), up), 0u);
   EXPECT_EQ(one.held(), 0u);
-  EXPECT_EQ(one.update_active_set(Point<2>(0., 0.), into), 1u);
+  EXPECT_EQ(one.update(Point<2>(0., 0.), into), 1u);
   EXPECT_EQ(one.held(), 3u);
   EXPECT_EQ(into[0], 1e-3);
   EXPECT_EQ(into[1], 0.);

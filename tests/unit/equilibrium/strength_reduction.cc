@@ -121,22 +121,25 @@ namespace
   TEST(StrengthReductionTest, LoadStepsAreCutFartherNearby)
   {
     Reduction reduction("set Tolerance = 0.01\nset Smallest load step = 0.2");
-    const EquilibriumLimits own = {7, 1e-3, 1e-6};
+    StaticOptions own;
+    own.n_load_steps = 7;
     reduction.begin(INFINITY);
-    EXPECT_EQ(reduction.limits(1., own).smallest_step, 1e-3);
-    EXPECT_EQ(reduction.limits(1., own).n_load_steps, 7u);
+    EXPECT_EQ(reduction.options(1., own).smallest_step, 1e-3);
+    EXPECT_EQ(reduction.options(1., own).n_load_steps, 7u);
     reduction.record(2., true);
-    EXPECT_EQ(reduction.limits(2.1, own).smallest_step, 0.2);
-    EXPECT_EQ(reduction.limits(2.1, own).n_load_steps, 1u);
-    EXPECT_EQ(reduction.limits(2.02, own).smallest_step, 1e-3);
-    EXPECT_LT(reduction.limits(2.1, own).max_failures,
-              reduction.limits(2.02, own).max_failures);
-    EXPECT_EQ(reduction.limits(2.02, {7, 0.5, 1e-6}).smallest_step, 0.2);
-    EXPECT_DOUBLE_EQ(reduction.limits(2., own).allowed_imbalance, 2e-4);
+    EXPECT_EQ(reduction.options(2.1, own).smallest_step, 0.2);
+    EXPECT_EQ(reduction.options(2.1, own).n_load_steps, 1u);
+    EXPECT_EQ(reduction.options(2.02, own).smallest_step, 1e-3);
+    EXPECT_LT(reduction.options(2.1, own).max_failures,
+              reduction.options(2.02, own).max_failures);
+
+    EXPECT_DOUBLE_EQ(reduction.options(2., own).allowed_imbalance, 2e-4);
     EXPECT_EQ(Reduction("set Allowed imbalance = 3e-5")
-                .limits(2., own)
+                .options(2., own)
                 .allowed_imbalance,
               3e-5);
+    own.smallest_step = 0.5;
+    EXPECT_EQ(reduction.options(2.02, own).smallest_step, 0.2);
   }
 
 

@@ -209,10 +209,10 @@ namespace well_balanced_load_test
       ground.mudline = [](const Point<dim> &x) { return 2.3 + 0.11 * x[0]; };
       StepParts<dim>     parts(ground, StrainMeasure::small);
       StaticProblem<dim> problem = ground.problem();
-      StaticFacets<dim>  facets;
-      facets.begin(problem, parts.unknowns, 1.);
+      StaticContact<dim> contact;
+      contact.begin(problem, parts.unknowns, 1.);
       WellBalancedLoad<dim> load;
-      load.compute(problem, parts.weights, facets, parts.unknowns);
+      load.update(problem, parts.weights, contact, parts.unknowns);
       std::vector<double> sums(3, 0.);
       for (const unsigned int node : parts.unknowns.active_nodes())
         for (unsigned int d = 0; d < dim; ++d)
@@ -255,10 +255,10 @@ namespace well_balanced_load_test
     };
     StepParts<2>     parts(block, StrainMeasure::small);
     StaticProblem<2> problem = block.problem();
-    StaticFacets<2>  facets;
-    facets.begin(problem, parts.unknowns, 1.);
+    StaticContact<2> contact;
+    contact.begin(problem, parts.unknowns, 1.);
     WellBalancedLoad<2> load;
-    load.compute(problem, parts.weights, facets, parts.unknowns);
+    load.update(problem, parts.weights, contact, parts.unknowns);
     EXPECT_GT(load.n_nodes_without(), 0u);
     const auto places = places_of_owned_nodes(block.grid);
     for (const unsigned int node : parts.unknowns.active_nodes())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/equilibrium/static_facets.h>
+#include <talus/equilibrium/static_contact.h>
 
 #include "equilibrium_setup.h"
 
@@ -70,7 +70,7 @@ namespace
 
 // Facets that the mesh cuts anyhow bear the whole weight, and each no more than
 // its friction.
-TEST(StaticFacets, BearTheWeightOfABlock)
+TEST(StaticContactWithObstacles, BearTheWeightOfABlock)
 {
   for (const double rise : {0., 0.1, 0.2})
     {
@@ -88,7 +88,7 @@ TEST(StaticFacets, BearTheWeightOfABlock)
 // of the bed, wherever in its cells that lies. (From the slope to
 // ten per cent more, where nearly all facets are about to slip, the loops over
 // the forces do not come to rest: what is found then is on the safe side.)
-TEST(StaticFacets, CoefficientThatHoldsABlock)
+TEST(StaticContactWithObstacles, CoefficientThatHoldsABlock)
 {
   for (const double rise : {0.1, 0.2})
     for (const double ratio : {0.98, 1.25})
@@ -103,7 +103,7 @@ TEST(StaticFacets, CoefficientThatHoldsABlock)
 
 
 // By hand: 1500 kg/m^3 x 1 m x 10 m/s^2 x sin(0.2) on each square metre.
-TEST(StaticFacets, ShearStressThatHoldsABlock)
+TEST(StaticContactWithObstacles, ShearStressThatHoldsABlock)
 {
   const double needed = 1500. * gravity_on_beds * std::sin(0.2);
   for (const double ratio : {0.99, 1.01})
@@ -121,7 +121,7 @@ TEST(StaticFacets, ShearStressThatHoldsABlock)
 
 
 // What pulls soil off an obstacle meets no force: it must not stick to it.
-TEST(StaticFacets, SoilLiftsOff)
+TEST(StaticContactWithObstacles, SoilLiftsOff)
 {
   BlockOnBed block("set Friction coefficient = 0.5\n", 0., M_PI);
   EXPECT_FALSE(block.find());
