@@ -68,12 +68,12 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # Needed by the tools: Python, the packages that the tools name where a module is
-# missing, and packages for fields in HDF5 and for films.
+# missing, and a package for films.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "python3:any")
 string(CONCAT CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
   "python3-numpy, python3-matplotlib, python3-pil, python3-jinja2, python3-scipy, "
   "python3-sklearn")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-h5py, ffmpeg")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_EXTRA
   ${CMAKE_BINARY_DIR}/shlibs ${CMAKE_BINARY_DIR}/triggers)
 # Of a package the loader finds the libraries without.
@@ -89,7 +89,7 @@ if(talus_has_python)
     "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_minor})")
 endif()
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-h5py, python3-mpi4py")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-mpi4py")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
 "The Python module talus: runs that a program leads step by step, with points as
 arrays of numpy and obstacles moved by functions, and readers of results.")

@@ -137,7 +137,11 @@ namespace talus
       std::smatch part;
       if (std::regex_match(error, part, unknown_entry))
         return place + "there is no parameter '" + part[1].str() +
-               "' in this section." + similar(part[1], "set ") + listed;
+               "' in this section." +
+               (part[1] == "Format" ? " Points, grid and obstacles are VTU "
+                                      "files without a choice: remove "
+                                      "Output/Format."
+                                    : similar(part[1], "set ") + listed);
       if (std::regex_match(error, part, unknown_section))
         return place + "there is no section '" + part[1].str() + "' here." +
                similar(part[1], "subsection ") + listed;

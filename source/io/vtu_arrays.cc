@@ -93,7 +93,7 @@ namespace talus
     const std::size_t size = values.size() * sizeof(Number);
     AssertThrow(size <= std::numeric_limits<std::uint32_t>::max(),
                 ExcUser("An array of a VTU file is larger than 4 GB. Use "
-                        "more ranks or 'Output/Format = hdf5'."));
+                        "more ranks."));
     const auto *bytes  = reinterpret_cast<const unsigned char *>(values.data());
     const Bytes packed = pack(bytes, size, level_for(bytes, size));
 

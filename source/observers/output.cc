@@ -40,12 +40,6 @@ namespace talus
         settings.boxes_as_cells,
         "Write each point as a box, a quad or hex, instead of a dot: ParaView "
         "shows a continuum.");
-      section.add_parameter("Format",
-                            settings.format,
-                            "Files of points, grid and obstacles: " +
-                              field_format_documentation() + ".",
-                            section.prm,
-                            Patterns::Selection(field_format_names()));
     }
   } // namespace
 
@@ -453,8 +447,7 @@ namespace talus
 
 
   /// Not collective: an error may have stopped a single rank, and waiting for
-  /// the other ranks would never end. Each rank writes a separate VTU file,
-  /// because HDF5 needs a common file.
+  /// the other ranks would never end. Each rank writes a separate VTU file.
   template <int dim>
   std::string
   Output<dim>::write_last_state(const State<dim> &state) const

@@ -185,18 +185,15 @@ namespace talus
   {
     prepare();
     const MPI_Comm communicator = state_.communicator();
-    resumed_from_ = find_checkpoint(output_.folder(), dim, communicator);
-    Hdf5InputFile     file(resumed_from_.path / state_file_name, communicator);
-    const std::string parameters = file.read_text("parameters");
-    check_read(file);
-    check_parameter_changes(parameters, parameters_);
+    resumed_from_        = find_checkpoint(output_.folder(), dim, communicator);
+    const Hdf5Image file = open_state(resumed_from_.path, communicator);
+    check_parameter_changes(file.read_text("parameters"), parameters_);
+    check_columns(file, state_.points);
 
-    mesh_.load((resumed_from_.path / mesh_file_name).string(),
-               file,
-               resumed_from_.head);
-    load_state(file, list_state());
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     const unsigned int n_ranks_then = resumed_from_.head.n_ranks;
+    mesh_.load((resumed_from_.path / mesh_file_name).string(), n_ranks_then);
+    load_state(file, list_state(), communicator);
     scheme_.splitter().renumber_after_resume(
       Utilities::MPI::this_mpi_process(communicator), n_ranks, n_ranks_then);
     if (n_ranks != n_ranks_then)
@@ -642,14 +639,14 @@ namespace talus
     output_.sync(state_.communicator());
     const std::vector<double> cell_weights = mesh_.cell_weights();
     const StateList           list         = list_state();
-    return checkpoint_.write({state_.points,
+    return checkpoint_.write({state_.grid,
+                              state_.points,
                               cell_weights,
                               list,
                               parameters_,
                               state_.step,
                               state_.time,
-                              end_of_run()},
-                             state_.grid);
+                              end_of_run()});
   }
 
 

@@ -183,13 +183,12 @@ class StopAndResume(Case):
 
 
 class MeshThatChanges(KillAndResume):
-    """The same with a mesh that follows the soil, and HDF5 output."""
+    """The same with a mesh that follows the soil."""
 
     N_KILLS = 8
     settings = SETTINGS + ["Mesh tracking/Enabled=true",
                            "Mesh tracking/Margin=4",
-                           "Mesh tracking/Interval=50",
-                           "Output/Format=hdf5"]
+                           "Mesh tracking/Interval=50"]
 
 
 class SoilLeaves(Case):

@@ -16,7 +16,6 @@ namespace talus
   struct OutputSettings
   {
     std::filesystem::path folder;
-    std::string           format          = "vtu"; ///< see make_field_writer()
     bool                  boxes_as_cells  = false;
     bool                  write_points    = true;
     bool                  write_grid      = true;

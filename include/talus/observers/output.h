@@ -20,8 +20,8 @@
 namespace talus
 {
   /// All output of a run, in one folder (parameters.prm, log.txt,
-  /// statistics.csv, profile.csv, points.pvd and grid.pvd with VTU files, or
-  /// .xdmf with HDF5 files), and the progress on the terminal.
+  /// statistics.csv, profile.csv, points.pvd and grid.pvd with VTU files), and
+  /// the progress on the terminal.
   ///
   /// Rows and fields are written at the start, at the first step that reaches
   /// each multiple of the interval (see OutputTimes) and at the last step.
@@ -157,8 +157,8 @@ namespace talus
     bool
     observe(const State<dim> &state, bool last);
 
-    /// Write the points with a failure mechanism to NAME.pvd and its files (or
-    /// .xdmf). Collective.
+    /// Write the points with a failure mechanism to NAME.pvd and its files.
+    /// Collective.
     ///
     /// @param state of the run
     /// @param name of the series of files
