@@ -78,8 +78,8 @@ namespace talus
     double peak_energy_ = 0.; ///< maximum kinetic energy of the grid, J
     double energy_      = 0.; ///< grid energy at the last check, J
     double quiet_since_ = std::numeric_limits<double>::max(); ///< time, s
-    Extent extent_;             ///< of nearly all mass at the time quiet_since_
-    Extent outermost_;          ///< of all mass at the time quiet_since_
+    Extent extent_;    ///< ends of nearly all mass at the time quiet_since_
+    Extent outermost_; ///< ends of all mass at the time quiet_since_
     bool   creeps_     = false; ///< whether outer points move on
     bool   has_slid_   = false;
     bool   has_left_   = false;
