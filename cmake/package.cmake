@@ -16,7 +16,7 @@ if(NOT DEFINED ENV{DEBFULLNAME} OR NOT DEFINED ENV{DEBEMAIL})
 endif()
 file(WRITE ${CMAKE_BINARY_DIR}/changelog.Debian
   "talus (${PROJECT_VERSION}-1) unstable; urgency=medium\n\n"
-  "  * What changed is told in doc/changes of the sources.\n\n"
+  "  * What changed is told in CHANGELOG.md of the sources.\n\n"
   " -- ${maintainer}  ${date}\n")
 file(WRITE ${CMAKE_BINARY_DIR}/copyright
   "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/\n"

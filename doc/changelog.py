@@ -1,19 +1,21 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Assemble the release notes of a version from the files in doc/changes.
+"""Print the release notes of a version from the files in doc/changes.
 
-Usage: changelog.py VERSION > CHANGELOG.md
+Usage: changelog.py VERSION
 
-Entries are grouped by kind, incompatible changes first, and sorted by date.
-After a release the files in doc/changes are removed, and the next release is
-put above the notes of the last.
+Entries are grouped by kind, incompatible changes first, and sorted by date. At a
+release each entry is shortened to a line, the list is put above the previous
+release in CHANGELOG.md, and the files in doc/changes are removed.
 """
 
 import pathlib
 import re
 import sys
 
-KINDS = ["Incompatible", "New", "Changed", "Fixed", "Removed"]
+# Kinds in the files, and the headings.
+KINDS = {"Incompatible": "Changed, incompatible", "New": "Added",
+         "Changed": "Changed", "Fixed": "Fixed", "Removed": "Removed"}
 
 
 def entries(folder):
@@ -31,10 +33,12 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     all_entries = list(entries(pathlib.Path(__file__).parent / "changes"))
-    print(f"# talus {sys.argv[1]}")
-    for kind in KINDS:
-        print(f"\n## {kind}\n")
-        for text in (text for k, text in all_entries if k == kind):
+    print(f"## talus {sys.argv[1]}")
+    for kind, heading in KINDS.items():
+        texts = [text for k, text in all_entries if k == kind]
+        if texts:
+            print(f"\n### {heading} in {sys.argv[1]}\n")
+        for text in texts:
             print(f"* {text}")
 
 

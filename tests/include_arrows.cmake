@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Rooms are floors: a room includes itself and the rooms listed here, nothing
-# else (the table of doc/architecture.md). Fails with the guilty line.
+# else (doc/architecture.md tells what each holds). Fails with the guilty line.
 cmake_minimum_required(VERSION 3.20)
 set(base)
 set(io base)

@@ -91,8 +91,7 @@ namespace talus
 
   /// Single entries are saved first and stored last, since ranges may overwrite
   /// their old and new positions. One row at a time, because the hardware
-  /// prefetches sequential ranges; several rows at a time took longer
-  /// (doc/performance.md).
+  /// prefetches sequential ranges; several rows at a time took longer.
   void
   Rows::move(const std::vector<BlockMove>   &block_moves,
              const std::vector<ElementMove> &element_moves)

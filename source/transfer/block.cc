@@ -129,7 +129,7 @@ namespace talus
     /// make the transfer fast: most points of a cell have weights at the same
     /// 3^dim nodes. The contributions of a group, four to six points on
     /// average, are summed in registers and written to memory once, whereas a
-    /// single point would load and store 3^dim records (doc/performance.md).
+    /// single point would load and store 3^dim records.
     /// Groups are found by bit operations, a bit per point and face, without a
     /// branch per point that the processor would have to predict.
     template <int dim>

@@ -88,8 +88,8 @@ namespace talus
 
     /// Append the points outside of their cell to @p points_out_of_cell.
     /// Position and cell are in registers already; a separate search would pass
-    /// over all points once more (doc/performance.md). Nearly all points stay
-    /// in their cell, hence the branch hint.
+    /// over all points once more. Nearly all points stay in their cell, hence
+    /// the branch hint.
     template <typename Mask>
     TALUS_ALWAYS_INLINE void
     note_points_out_of_cell(const Mask                &inside,

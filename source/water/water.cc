@@ -132,7 +132,7 @@ namespace talus
 
   /// The facets stay where they are until soil may have moved by a tenth of a
   /// cell: the search for the free surface takes as long as the transfer of all
-  /// points, and the drag is hardly affected (doc/performance.md, "Water").
+  /// points, and the drag is hardly affected.
   /// Velocities and shares of the facets are those of the step.
   template <int dim>
   void

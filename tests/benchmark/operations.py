@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Bytes and floating-point operations of a step, per point: the one place where
-they are written down. doc/performance.md derives them.
+they are written down.
 
 Operations are additions, multiplications, divisions, roots, comparisons and
 exponentials, one each, a multiply-add two. They are those that the formulas need;

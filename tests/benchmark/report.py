@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Tables on the terminal and in doc/performance.md."""
+"""Tables on the terminal, and the goals in doc/performance.md."""
 
 import os
 import re
@@ -76,7 +76,7 @@ def replace_between(text, name, content):
     return before + begin + content + "\n" + end + rest.split(end)[1]
 
 
-def write_tables(path, sentence, goals, phases, instructions):
+def write_goals(path, sentence, goals):
     with open(path) as file:
         text = file.read()
     text = replace_between(
@@ -84,11 +84,6 @@ def write_tables(path, sentence, goals, phases, instructions):
         "goals",
         textwrap.fill(sentence, 118) + "\n\n" + as_markdown(("what", "measured", "goal", ""), goals),
     )
-    text = replace_between(text, "phases", as_markdown(phases[0], phases[1:]))
-    # A sentence where nothing was counted.
-    if not isinstance(instructions, str):
-        instructions = as_markdown(instructions[0], instructions[1:])
-    text = replace_between(text, "instructions", instructions)
     with open(path, "w") as file:
         file.write(text)
     print(os.path.relpath(path) + " is written.")

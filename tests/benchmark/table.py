@@ -8,8 +8,9 @@
 BUILD is the build folder of a Release build. Runs that are compared take turns,
 so that whatever disturbs the machine disturbs both; the median of the ratios is
 printed. Nothing else should run meanwhile. With all cases it takes half an
-hour or more. --write puts the tables into doc/performance.md. --dist and --clang name a
-build for distribution and one by clang, to compare BUILD with.
+hour or more. --write puts the rows into doc/performance.md; phases and instructions
+are only printed. --dist and --clang name a build for distribution and one by clang, to
+compare BUILD with.
 
 The environment variable TALUS_YARDSTICK may name the source of the yardstick, a
 program that is called with `B`, or `3` in space, the number of cells along a side
@@ -29,7 +30,7 @@ from measure import QUIET, ROOT, STATES, Bench, median_ratio
 from operations import Operations, phase_table
 from report import (
     at_least, at_most, machine, print_table, row, within, without_yardstick,
-    write_tables,
+    write_goals,
 )
 
 # Wave speed of the elastic block and of the clay, m/s, and their CFL number.
@@ -163,18 +164,17 @@ def graded_mesh(bench):
 
 
 def other_builds(bench):
-    """Other ways to compile: the speed of one over that of the other, on the
-    elastic block and on the block of clay."""
+    """Other ways to compile, of the builds that the options name: the speed of
+    one over that of the other, on the elastic block and on the block of clay."""
     for what, other, goal, is_over_given in (
         ("build for distribution over this one", bench.dist, at_least(0.95), True),
         ("this build over one by clang", bench.clang, within(0.9, 1.1), False),
     ):
+        if not other:
+            continue
         for file, name in (("block.prm", "elastic block"),
                            ("block-of-clay.prm", "block of clay")):
             text = f"{name}, 40k points, {what}: speed"
-            if not other:
-                yield (text, "not measured", goal[1], "")
-                continue
             theirs, ours = bench.in_turn(
                 lambda: block(bench, file, 100, 600, build=other),
                 lambda: block(bench, file, 100, 600),
@@ -426,21 +426,14 @@ def main():
                 for line in case(bench):
                     print_table([line])
                     rows.append(line)
-        phases = []
         if options.case is None or "phases" in options.case:
-            phases = phases_of_landslide(bench)
-            print_table(phases)
-        counts = []
+            print_table(phases_of_landslide(bench))
         if options.case is None or "instructions" in options.case:
             counts = instructions_and_cycles(bench)
             print_table([[counts]] if isinstance(counts, str) else counts)
         if options.write:
-            write_tables(
-                os.path.join(ROOT, "doc", "performance.md"),
-                machine(bench),
-                rows,
-                phases,
-                counts,
+            write_goals(
+                os.path.join(ROOT, "doc", "performance.md"), machine(bench), rows
             )
 
 

@@ -37,10 +37,11 @@ COARSE_PIPE = {"Grid/Cell size": 0.5, "End time": 0.1, "Output/Statistics interv
 
 
 def content(folder):
-    """Bytes of all results; the log has times of the clock, and the parameters have the name
-    of the folder."""
+    """Bytes of all results. The log and `state.h5` have times of the clock, which the checksums
+    follow, and the parameters have the name of the folder."""
     return {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*")
-            if path.is_file() and path.name not in ("log.txt", "lock", "parameters.prm", "state.h5")}
+            if path.is_file() and path.name not in ("log.txt", "lock", "parameters.prm", "state.h5",
+                                                    "checksums")}
 
 
 def program(folder, file, settings, *options, launcher=()):
