@@ -66,8 +66,8 @@ namespace talus
 
 
 
-  /// Ends in plan of the share @p share [-] of the mass, with equal shares
-  /// beyond both ends. Collective.
+  /// Ends in plan with the share 1 - @p share [-] of the mass beyond each.
+  /// Collective.
   template <int dim>
   typename RestDetector<dim>::Extent
   RestDetector<dim>::extent_in_plan(const State<dim> &state,
@@ -80,8 +80,8 @@ namespace talus
     for (unsigned int d = 0; d < dim; ++d)
       if (d != 1)
         {
-          extent.lower[d] = end(d, 0.5 * (1. - share));
-          extent.upper[d] = end(d, 0.5 * (1. + share));
+          extent.lower[d] = end(d, 1. - share);
+          extent.upper[d] = end(d, share);
         }
     return extent;
   }
