@@ -51,6 +51,15 @@ namespace talus
                   "soil is not in balance afterwards, the search ends.",
                   this->prm,
                   Patterns::Integer(1));
+    add_parameters_of_newton();
+  }
+
+
+
+  template <int dim>
+  void
+  Equilibrium<dim>::add_parameters_of_newton()
+  {
     add_parameter("Newton tolerance",
                   parameters_.tolerance,
                   "Largest residual of Newton's method over the force of the "

@@ -407,8 +407,8 @@ namespace talus
                            problem.state.grid.faces_of_node(node)),
                          u,
                          1e-6 * weight);
-          // Where the soil has come down, the next loop holds the normal
-          // displacement at zero: on the face.
+          // A node that has come down on the face stays there: the next loop
+          // holds its normal displacement at zero.
           for (unsigned int d = 0; d < dim; ++d)
             if (place.state != ContactState::open && place.normal[d] != 0)
               u[dim * node + d] = 0.;
@@ -494,9 +494,9 @@ namespace talus
                              const std::vector<double> &u,
                              const StrainMeasure        measure)
   {
-    const auto                    &constraints = problem.contact.constraints();
-    const unsigned int             n_facets    = constraints.place_of_node(0);
-    std::vector<FacetImpulse<dim>> forces;
+    const auto        &constraints = problem.contact.constraints();
+    const unsigned int n_facets    = constraints.place_of_node(0);
+    std::vector<ContactImpulse<dim>> forces;
     for (auto &place : places_)
       {
         const double moved = place.displacement(u) * place.normal;

@@ -167,8 +167,7 @@ namespace talus
           bins[bin(c)] += c.mass;
         Utilities::MPI::sum(bins, communicator, bins);
 
-        // By round-off the sum may miss the target: accept the last bin.
-        unsigned int b = 0;
+        unsigned int b = 0; // by round-off the last one, below the target
         for (; b + 1 < n_bins && mass_below + bins[b] < target; ++b)
           mass_below += bins[b];
         candidates.erase(std::remove_if(candidates.begin(),

@@ -30,8 +30,7 @@ namespace talus
     , obstacles(preview.obstacles)
     , loading(preview.folder)
     , boundaries(interactions.template add<Boundaries<dim>>())
-    , contact(
-        interactions.template add<FacetContact<dim>>(obstacles, boundaries))
+    , contact(interactions.template add<Contact<dim>>(obstacles, boundaries))
     , damping(interactions.template add<Damping<dim>>(boundaries,
                                                       contact.feels_obstacle()))
     , water(interactions.template add<Water<dim>>(materials, contact))

@@ -3,7 +3,6 @@
 #include <talus/transfer/points_of_cells.h>
 
 #include <algorithm>
-#include <cstring>
 
 namespace talus
 {

@@ -210,8 +210,7 @@ namespace talus
 
   template <int dim>
   void
-  FreeSurface<dim>::find(const State<dim>        &state,
-                         const FacetContact<dim> &contact)
+  FreeSurface<dim>::find(const State<dim> &state, const Contact<dim> &contact)
   {
     const Grid<dim> &grid = state.grid;
     // Records of other ranks come back by messages.
@@ -247,7 +246,7 @@ namespace talus
   /// nodes.
   template <int dim>
   void
-  FreeSurface<dim>::add_contact_areas(const FacetContact<dim> &contact)
+  FreeSurface<dim>::add_contact_areas(const Contact<dim> &contact)
   {
     const auto &facets = contact.facets().owned();
     for (unsigned int f = 0; f < facets.size(); ++f)
@@ -267,8 +266,8 @@ namespace talus
   /// Fill the records of all nodes. Collective.
   template <int dim>
   void
-  FreeSurface<dim>::fill_records(const State<dim>        &state,
-                                 const FacetContact<dim> &contact)
+  FreeSurface<dim>::fill_records(const State<dim>   &state,
+                                 const Contact<dim> &contact)
   {
     const NodalFields<dim> &nodes = state.nodes;
     if (solid_.exists())
@@ -285,7 +284,10 @@ namespace talus
     at_bottom_.for_each_node(
       [&](const unsigned int face, const unsigned int node) {
         double *const to = record(node);
-        to[bottom] = at_bottom_.share(state.grid, face, node, to[fraction]);
+        to[bottom]       = at_bottom_.share(face,
+                                      node,
+                                      state.grid.face_share(face, node).area,
+                                      to[fraction]);
       });
     exchange_.copy_to_ghosts(records_.data());
     for (const HangingNode &hanging : state.grid.hanging_nodes())

@@ -146,7 +146,7 @@ namespace
 
     Materials<dim>                            materials;
     Obstacles<dim>                            obstacles;
-    FacetContact<dim>                         contact{obstacles, boundaries};
+    Contact<dim>                              contact{obstacles, boundaries};
     Equilibrium<dim>                          equilibrium;
     std::function<double(const Point<dim> &)> mudline; ///< see StaticProblem
     unsigned int                              n_before = 0;

@@ -139,6 +139,8 @@ namespace talus
     }
 
   private:
+    void
+    add_parameters_of_newton();
     StaticOptions
     options_of_step(bool has_obstacles) const;
     bool

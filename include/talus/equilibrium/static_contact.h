@@ -42,7 +42,7 @@ namespace talus
     double gap       = 0; ///< at the start of the step, m
     double opened    = 0; ///< normal displacement since the points were
                           ///< last moved, m
-    unsigned int           number = 0; ///< number in FacetConstraints
+    unsigned int           number = 0; ///< number in ContactConstraints
     CoulombLimit           limit;      ///< limit of friction at the start
     ContactState           state = ContactState::sticks;
     dealii::Tensor<1, dim> given, force; ///< on the soil, N

@@ -3,7 +3,7 @@
 #define talus_equilibrium_static_problem_h
 
 #include <talus/boundaries/boundaries.h>
-#include <talus/contact/facet_contact.h>
+#include <talus/contact/contact.h>
 #include <talus/materials/materials.h>
 #include <talus/state/state.h>
 #include <talus/transfer/transfer.h>
@@ -23,7 +23,7 @@ namespace talus
     const Materials<dim> &materials;
     Boundaries<dim>      &boundaries;
     const Loads<dim>     &loads;
-    FacetContact<dim>    &contact; ///< with obstacles
+    Contact<dim>         &contact; ///< with obstacles
     /// Height of the mudline above or below a place, m; not a number where the
     /// vertical meets no soil. Empty if the mudline is unknown.
     std::function<double(const dealii::Point<dim> &)> mudline = {};

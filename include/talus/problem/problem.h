@@ -4,7 +4,7 @@
 
 #include <talus/boundaries/boundaries.h>
 #include <talus/boundaries/damping.h>
-#include <talus/contact/facet_contact.h>
+#include <talus/contact/contact.h>
 #include <talus/interaction/nodal_interactions.h>
 #include <talus/problem/bodies.h>
 #include <talus/problem/inputs.h>
@@ -203,7 +203,7 @@ namespace talus
     /// the list that are used directly.
     NodalInteractions<dim> interactions;
     Boundaries<dim>       &boundaries;
-    FacetContact<dim>     &contact; ///< contact with obstacles
+    Contact<dim>          &contact; ///< contact with obstacles
     Damping<dim>          &damping;
     Water<dim>            &water;
     Hydroplaning<dim>     &hydroplaning;

@@ -4,7 +4,7 @@
 
 #include <talus/base/quantity.h>
 #include <talus/boundaries/boundaries.h>
-#include <talus/contact/facet_contact.h>
+#include <talus/contact/contact.h>
 #include <talus/simulation/remark_observer.h>
 
 namespace talus
@@ -16,9 +16,9 @@ namespace talus
   class ContactAreaRemark : public RemarkObserver<dim>
   {
   public:
-    ContactAreaRemark(const Boundaries<dim>   &boundaries,
-                      const FacetContact<dim> &contact,
-                      Log                     &log)
+    ContactAreaRemark(const Boundaries<dim> &boundaries,
+                      const Contact<dim>    &contact,
+                      Log                   &log)
       : RemarkObserver<dim>("contact area remark", log)
       , boundaries_(boundaries)
       , contact_(contact)
@@ -33,9 +33,9 @@ namespace talus
     Remark
     remark(const State<dim> &state) const override;
 
-    Quantities               areas_; ///< contact area, footprint; last row
-    const Boundaries<dim>   &boundaries_;
-    const FacetContact<dim> &contact_;
+    Quantities             areas_; ///< contact area, footprint; last row
+    const Boundaries<dim> &boundaries_;
+    const Contact<dim>    &contact_;
   };
 } // namespace talus
 

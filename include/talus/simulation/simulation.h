@@ -164,7 +164,7 @@ namespace talus
     }
 
     /// Obstacles and the forces of the soil on them.
-    const FacetContact<dim> &
+    const Contact<dim> &
     contact() const
     {
       return problem_.contact;

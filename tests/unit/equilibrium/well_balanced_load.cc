@@ -99,7 +99,7 @@ namespace well_balanced_load_test
         StaticProblem<dim> all = this->problem();
         sum_forces(all);
         this->contact.find_constraints(*this);
-        std::vector<FacetImpulse<dim>> forces;
+        std::vector<ContactImpulse<dim>> forces;
         for (const auto &constraint : this->contact.constraints().all())
           {
             const double force =

@@ -1,28 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef talus_boundaries_contact_area_h
-#define talus_boundaries_contact_area_h
-
-#include <talus/grid/nodal_fields.h>
+#ifndef talus_contact_contact_area_h
+#define talus_contact_contact_area_h
 
 #include <algorithm>
 
 namespace talus
 {
-  /// Volume fraction of soil in the cells at @p face, weighted by the shape
-  /// function of @p node [-]; at most one.
-  template <int dim>
-  double
-  volume_fraction_at_face(const NodalFields<dim> &nodes,
-                          const Grid<dim>        &grid,
-                          const unsigned int      face,
-                          const unsigned int      node)
-  {
-    return std::min(1.,
-                    nodes.volume(node) / grid.face_share(face, node).volume);
-  }
-
-
-
   /// Volume fraction from which on a surface counts as fully covered [-],
   /// without examination of boxes.
   constexpr double volume_fraction_of_full_cells = 0.95;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
-#include <talus/contact/facet_constraints.h>
+#include <talus/contact/contact_constraints.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -13,7 +13,7 @@ namespace talus
 
   template <int dim>
   void
-  FacetConstraints<dim>::prepare()
+  ContactConstraints<dim>::prepare()
   {
     constraints_.clear();
     loaded_.clear();
@@ -26,7 +26,7 @@ namespace talus
   // numbers of all places.
   template <int dim>
   void
-  FacetConstraints<dim>::begin_step()
+  ContactConstraints<dim>::begin_step()
   {
     const unsigned int n = place_of_node(face_nodes_.size());
     if (obstacles_.move() || constraints_.size() != n)
@@ -46,12 +46,12 @@ namespace talus
 
   template <int dim>
   void
-  FacetConstraints<dim>::find(const State<dim> &state, const bool has_memory)
+  ContactConstraints<dim>::find(const State<dim> &state, const bool has_memory)
   {
     for (unsigned int c = 0; c < facets_.owned().size(); ++c)
       {
         const ContactFacet<dim> &facet      = facets_.owned()[c];
-        FacetConstraint<dim>    &constraint = constraints_[c];
+        ContactConstraint<dim>  &constraint = constraints_[c];
         if (soil_.fraction(c) == 0 || !find_shares(facet, constraint))
           continue;
         loaded_.push_back(c);
@@ -68,12 +68,12 @@ namespace talus
 
   template <int dim>
   void
-  FacetConstraints<dim>::find_at_node(const State<dim>  &state,
-                                      const unsigned int i,
-                                      const bool         has_memory)
+  ContactConstraints<dim>::find_at_node(const State<dim>  &state,
+                                        const unsigned int i,
+                                        const bool         has_memory)
   {
-    const FaceNode<dim>  &at         = face_nodes_[i];
-    FacetConstraint<dim> &constraint = constraints_[place_of_node(i)];
+    const FaceNode<dim>    &at         = face_nodes_[i];
+    ContactConstraint<dim> &constraint = constraints_[place_of_node(i)];
     loaded_nodes_.push_back(i);
     constraint.is_loaded = true;
     constraint.share[0]  = 1.;
@@ -97,8 +97,8 @@ namespace talus
   /// mass would shift the wall into the soil.
   template <int dim>
   bool
-  FacetConstraints<dim>::find_shares(const ContactFacet<dim> &facet,
-                                     FacetConstraint<dim>    &constraint) const
+  ContactConstraints<dim>::find_shares(const ContactFacet<dim> &facet,
+                                       ContactConstraint<dim> &constraint) const
   {
     std::array<double, ContactFacet<dim>::n_nodes> share;
     double                                         sum = 0;
@@ -119,7 +119,7 @@ namespace talus
 
   template <int dim>
   void
-  FacetConstraints<dim>::require_uniform(const ContactFacet<dim> &facet) const
+  ContactConstraints<dim>::require_uniform(const ContactFacet<dim> &facet) const
   {
     AssertThrow(facet.cell_is_uniform,
                 ExcPoint(text("Soil has come to the surface of the obstacle '",
@@ -139,8 +139,8 @@ namespace talus
   /// the nodes with soil.
   template <int dim>
   void
-  FacetConstraints<dim>::find_masses(const ContactFacet<dim> &facet,
-                                     FacetConstraint<dim>    &constraint) const
+  ContactConstraints<dim>::find_masses(const ContactFacet<dim> &facet,
+                                       ContactConstraint<dim> &constraint) const
   {
     double inverse_mass = 0, inverse_normal_mass = 0;
     constraint.gap = NodalGaps<dim>::none;
@@ -173,10 +173,10 @@ namespace talus
   // mean force, is kept while soil slides from facet to facet.
   template <int dim>
   double
-  FacetConstraints<dim>::averaging_weight(
-    const State<dim>           &state,
-    const ContactFacet<dim>    &facet,
-    const FacetConstraint<dim> &constraint) const
+  ContactConstraints<dim>::averaging_weight(
+    const State<dim>             &state,
+    const ContactFacet<dim>      &facet,
+    const ContactConstraint<dim> &constraint) const
   {
     const double         dt = state.time_step;
     const Tensor<1, dim> u =
@@ -191,8 +191,9 @@ namespace talus
 
   template <int dim>
   Tensor<1, dim>
-  FacetConstraints<dim>::velocity(const ContactFacet<dim>    &facet,
-                                  const FacetConstraint<dim> &constraint) const
+  ContactConstraints<dim>::velocity(
+    const ContactFacet<dim>      &facet,
+    const ContactConstraint<dim> &constraint) const
   {
     Tensor<1, dim> u;
     for (unsigned int v = 0; v < facet.node.size(); ++v)
@@ -204,7 +205,7 @@ namespace talus
 
   template <int dim>
   CoulombLimit
-  FacetConstraints<dim>::limit(const unsigned int place) const
+  ContactConstraints<dim>::limit(const unsigned int place) const
   {
     const auto        &facets = facets_.owned();
     const unsigned int n      = facets.size();
@@ -220,21 +221,10 @@ namespace talus
 
   template <int dim>
   double
-  FacetConstraints<dim>::friction_limit(const unsigned int place,
-                                        const double       normal_impulse,
-                                        const double       dt) const
-  {
-    return dt * limit(place).force(normal_impulse / dt);
-  }
-
-
-
-  template <int dim>
-  double
-  FacetConstraints<dim>::friction_impulse(const unsigned int place,
-                                          const double       trial,
-                                          const double       normal_impulse,
-                                          const double       dt) const
+  ContactConstraints<dim>::friction_impulse(const unsigned int place,
+                                            const double       trial,
+                                            const double       normal_impulse,
+                                            const double       dt) const
   {
     return limit(place).impulse(trial,
                                 constraints_[place].mass,
@@ -244,6 +234,6 @@ namespace talus
 
 
 
-  template class FacetConstraints<2>;
-  template class FacetConstraints<3>;
+  template class ContactConstraints<2>;
+  template class ContactConstraints<3>;
 } // namespace talus

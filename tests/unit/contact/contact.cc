@@ -4,9 +4,9 @@
 #include "soil_on_bed.h"
 #include "suites.h"
 
-namespace facet_contact_test
+namespace contact_test
 {
-  TALUS_ALSO_ON_RANKS(FacetContact, 2, 3);
+  TALUS_ALSO_ON_RANKS(Contact, 2, 3);
 
   /// Soil with the initial velocity @p before, m/s, after a step of @p dt, s,
   /// in contact with the bed.
@@ -51,7 +51,7 @@ namespace facet_contact_test
            const Tensor<1, dim> &after) const
     {
       const double n_facets = (dim == 2 ? 6. : 12.);
-      for (const FacetImpulse<dim> &impulse : this->contact.impulses())
+      for (const ContactImpulse<dim> &impulse : this->contact.impulses())
         {
           EXPECT_NEAR(impulse.normal, normal, 1e-9);
           EXPECT_NEAR(impulse.tangential[0], tangential, 1e-9);
@@ -99,22 +99,22 @@ namespace facet_contact_test
     // A surface only pushes.
     Step<dim>(rough, v(1., 2.)).expect(0., 0., v(1., 2.));
   }
-} // namespace facet_contact_test
+} // namespace contact_test
 
 
 
-TEST(FacetContact, ImpulsesOfOneStep)
+TEST(Contact, ImpulsesOfOneStep)
 {
-  facet_contact_test::expect_steps<2>();
-  facet_contact_test::expect_steps<3>();
+  contact_test::expect_steps<2>();
+  contact_test::expect_steps<3>();
 }
 
 
 
 // 0.25 m above the dead band soil may fall at 0.25 m per step.
-TEST(FacetContact, SoilMayApproachByTheGap)
+TEST(Contact, SoilMayApproachByTheGap)
 {
-  using facet_contact_test::Step;
+  using contact_test::Step;
   const auto fall = Point<2>(0., -2.);
   Step<2>("", fall, 0.1, 0.3).expect(0., 0., fall);
   const Step<2> slowed("", fall, 0.25, 0.3);
@@ -130,17 +130,16 @@ TEST(FacetContact, SoilMayApproachByTheGap)
 // The second step starts from the impulses of the first step, scaled by the
 // ratio of the time steps, and, with nothing left to correct, removes the
 // impulses sweep by sweep.
-TEST(FacetContact, ImpulsesAreForcesOfThePreviousStep)
+TEST(Contact, ImpulsesAreForcesOfThePreviousStep)
 {
-  facet_contact_test::Step<2> soil("set Friction coefficient = 0",
-                                   Point<2>(0., -2.));
+  contact_test::Step<2> soil("set Friction coefficient = 0", Point<2>(0., -2.));
   // A force of 2 m / 0.1 s for 0.05 s stops soil that falls with 1 m/s.
   soil.time_step = 0.05;
   soil.move(Point<2>(0., -1.));
   soil.contact.find_soil(soil);
   soil.contact.correct_velocities(soil);
   soil.before = Point<2>(0., -1.);
-  for (const FacetImpulse<2> &impulse : soil.contact.impulses())
+  for (const ContactImpulse<2> &impulse : soil.contact.impulses())
     EXPECT_NEAR(impulse.normal, soil.half_cell, 1e-9);
   EXPECT_EQ(soil.contact.previous_time_step(), 0.05);
 }
@@ -150,12 +149,12 @@ TEST(FacetContact, ImpulsesAreForcesOfThePreviousStep)
 // Soil is dragged over the bed: friction takes
 //   r tau_p s + (1 - r) tau_p s_95/3 (1 - e^(-3 s/s_95))
 // per area. Before, it sticks, which is no slip.
-TEST(FacetContact, WorkOfSofteningBySlip)
+TEST(Contact, WorkOfSofteningBySlip)
 {
   constexpr double tau = 3500., r = 0.4, s_95 = 0.1;
   const double     dt = 1e-5;
 
-  facet_contact_test::Step<2> soil(
+  contact_test::Step<2> soil(
     text("set Friction coefficient = 10\nset Maximum shear stress = ",
          tau,
          "\nset Slip to remould = ",
@@ -194,22 +193,22 @@ TEST(FacetContact, WorkOfSofteningBySlip)
 
 
 // Impulses survive a checkpoint by name of the facet, on any rank.
-TEST(FacetContact, ImpulsesSurviveACheckpoint)
+TEST(Contact, ImpulsesSurviveACheckpoint)
 {
-  facet_contact_test::Step<2> soil("set Friction coefficient = 0.3",
-                                   Point<2>(1., -2.));
-  std::vector<double>         rows;
+  contact_test::Step<2> soil("set Friction coefficient = 0.3",
+                             Point<2>(1., -2.));
+  std::vector<double>   rows;
   for (const auto &of_rank :
        MPI::all_gather(soil.grid.communicator(), soil.contact.save()))
     rows.insert(rows.end(), of_rank.begin(), of_rank.end());
-  FacetImpulses<2> impulses;
+  ContactImpulses<2> impulses;
   impulses.restore(rows);
   EXPECT_EQ(impulses.rows(), rows);
   impulses.update(keys_of(soil.facets.owned()));
   ASSERT_EQ(impulses.all().size(), soil.contact.impulses().size());
   for (unsigned int f = 0; f < impulses.all().size(); ++f)
     {
-      const FacetImpulse<2> &saved = soil.contact.impulses()[f];
+      const ContactImpulse<2> &saved = soil.contact.impulses()[f];
       EXPECT_EQ(impulses[f].normal, saved.normal);
       EXPECT_EQ(impulses[f].tangential, saved.tangential);
       EXPECT_EQ(impulses[f].effective_mass, saved.effective_mass);
@@ -219,6 +218,6 @@ TEST(FacetContact, ImpulsesSurviveACheckpoint)
   for (std::size_t i = 2; i < rows.size(); i += 10)
     rows[i] += 1.; // the number of the obstacle
   impulses.restore(rows);
-  for (const FacetImpulse<2> &impulse : impulses.all())
+  for (const ContactImpulse<2> &impulse : impulses.all())
     EXPECT_FALSE(impulse.acts());
 }

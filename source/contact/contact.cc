@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/assertion.h>
-#include <talus/contact/facet_contact.h>
+#include <talus/contact/contact.h>
 #include <talus/contact/impulse_projection.h>
 
 #include <deal.II/base/mpi.h>
@@ -27,8 +27,7 @@ namespace talus
 
 
   template <int dim>
-  FacetContact<dim>::FacetContact(Obstacles<dim>  &obstacles,
-                                  Boundaries<dim> &boundaries)
+  Contact<dim>::Contact(Obstacles<dim> &obstacles, Boundaries<dim> &boundaries)
     : obstacles_(obstacles)
     , boundaries_(boundaries)
     , reactions_(obstacles.size())
@@ -38,7 +37,7 @@ namespace talus
 
   template <int dim>
   void
-  FacetContact<dim>::prepare(const Grid<dim> &grid)
+  Contact<dim>::prepare(const Grid<dim> &grid)
   {
     if (!obstacles_.empty())
       {
@@ -60,7 +59,7 @@ namespace talus
 
   template <int dim>
   std::vector<PlaceKey>
-  FacetContact<dim>::keys() const
+  Contact<dim>::keys() const
   {
     std::vector<PlaceKey> result = keys_of(facets_.owned());
     for (const FaceNode<dim> &at : face_nodes_.all())
@@ -72,7 +71,7 @@ namespace talus
 
   template <int dim>
   std::vector<BedPlace<dim>>
-  FacetContact<dim>::places() const
+  Contact<dim>::places() const
   {
     std::vector<BedPlace<dim>> result;
     for (const ContactFacet<dim> &facet : facets_.owned())
@@ -87,9 +86,12 @@ namespace talus
   /// Give impulses and slip to the present places of this rank.
   template <int dim>
   void
-  FacetContact<dim>::update_places()
+  Contact<dim>::update_places()
   {
-    impulses_.update(keys());
+    // In most steps a moving obstacle cuts the cells of the step before.
+    if (std::vector<PlaceKey> now = keys();
+        impulses_.is_waiting() || now != impulses_.places())
+      impulses_.update(std::move(now));
     if (keeps_slip())
       slip_.update(places());
   }
@@ -102,18 +104,18 @@ namespace talus
   /// rest.
   template <int dim>
   void
-  FacetContact<dim>::add_slip(const State<dim> &state)
+  Contact<dim>::add_slip(const State<dim> &state)
   {
     const double dt = state.time_step;
     for (const unsigned int c : constraints_.loaded())
       {
-        const ContactFacet<dim> &facet   = facets_.owned()[c];
-        const FacetImpulse<dim> &impulse = impulses_[c];
+        const ContactFacet<dim>   &facet   = facets_.owned()[c];
+        const ContactImpulse<dim> &impulse = impulses_[c];
         if (!obstacles_[facet.obstacle].bed().changes_by_slip() ||
             constraints_[c].normal_mass == 0)
           continue;
         const double limit =
-          constraints_.friction_limit(c, impulse.mean_normal, dt);
+          dt * constraints_.limit(c).force(impulse.mean_normal / dt);
         if (!(limit > 0) || impulse.tangential.norm() < (1. - 1e-9) * limit)
           continue;
         const Tensor<1, dim> u   = constraints_.velocity(c);
@@ -132,7 +134,7 @@ namespace talus
   // no facet can change a component held by a wall.
   template <int dim>
   void
-  FacetContact<dim>::find_impulses_of_facets(State<dim> &state)
+  Contact<dim>::find_impulses_of_facets(State<dim> &state)
   {
     nodes_.hold_walls(state, boundaries_);
     nodes_.load(state);
@@ -146,7 +148,7 @@ namespace talus
       sweep(state);
     for (const unsigned int c : constraints_.loaded())
       {
-        FacetImpulse<dim> &impulse = impulses_[c];
+        ContactImpulse<dim> &impulse = impulses_[c];
         impulse.mean_normal =
           mean_normal(impulse, constraints_[c], impulse.normal);
         impulse.area = impulse.mean_normal > 0 ? constraints_[c].area : 0.;
@@ -163,7 +165,7 @@ namespace talus
   // leaves the mesh whatever the obstacles do.
   template <int dim>
   void
-  FacetContact<dim>::correct_velocities(State<dim> &state)
+  Contact<dim>::correct_velocities(State<dim> &state)
   {
     slip_.begin_step(state.communicator());
     constraints_.begin_step();
@@ -178,7 +180,7 @@ namespace talus
 
   template <int dim>
   void
-  FacetContact<dim>::find_constraints(const State<dim> &state)
+  Contact<dim>::find_constraints(const State<dim> &state)
   {
     constraints_.begin_step();
     if (!obstacles_.empty())
@@ -197,7 +199,7 @@ namespace talus
   // soil in this step forget their impulse.
   template <int dim>
   void
-  FacetContact<dim>::find_impulses_of_nodes(State<dim> &state)
+  Contact<dim>::find_impulses_of_nodes(State<dim> &state)
   {
     if (face_nodes_.size() == 0)
       return;
@@ -209,18 +211,13 @@ namespace talus
         face_nodes_.for_each_at(node, [&](const unsigned int i) {
           // Components held by a wall must not use up the friction.
           if (face_nodes_[i].walls != 0)
-            boundaries_.impose_walls(state.nodes,
-                                     state.grid.faces_of_node(node),
-                                     node,
-                                     state.time,
-                                     state.time_step,
-                                     of_walls);
+            boundaries_.impose_walls(state, node, of_walls);
           project_at_node(state, i, longer);
         });
     of_walls.record(state.accounts);
     for (unsigned int i = 0; i < face_nodes_.size(); ++i)
       if (const unsigned int c = constraints_.place_of_node(i);
-          !constraints_[c].is_loaded)
+          !constraints_[c].is_loaded && impulses_[c].effective_mass > 0)
         impulses_[c] = {};
   }
 
@@ -239,20 +236,20 @@ namespace talus
   /// the previous one [-].
   template <int dim>
   void
-  FacetContact<dim>::project_at_node(State<dim>        &state,
-                                     const unsigned int i,
-                                     const double       longer)
+  Contact<dim>::project_at_node(State<dim>        &state,
+                                const unsigned int i,
+                                const double       longer)
   {
     const FaceNode<dim> &at      = face_nodes_[i];
     const Tensor<1, dim> normal  = at.normal();
     const Tensor<1, dim> u       = state.nodes.velocity(at.node);
     const double         dt      = state.time_step;
     const unsigned int   c       = constraints_.place_of_node(i);
-    FacetImpulse<dim>   &impulse = impulses_[c];
+    ContactImpulse<dim> &impulse = impulses_[c];
     if (const double gap = soil_.gap(at); gap > 0 && u * normal >= -gap / dt)
       return;
     constraints_.find_at_node(state, i, impulse.effective_mass > 0);
-    const FacetConstraint<dim> &constraint = constraints_[c];
+    const ContactConstraint<dim> &constraint = constraints_[c];
     impulse = {0., {}, constraint.mass, longer * impulse.mean_normal, 0.};
     const auto projected =
       projected_impulse(constraints_, c, normal, impulse, u, dt);
@@ -279,7 +276,7 @@ namespace talus
   // step, as warm_start() does in every step.
   template <int dim>
   void
-  FacetContact<dim>::set_forces(const std::vector<FacetImpulse<dim>> &forces)
+  Contact<dim>::set_forces(const std::vector<ContactImpulse<dim>> &forces)
   {
     TalusAssert(forces.size() == facets_.owned().size(),
                 ExcDimensionMismatch(forces.size(), facets_.owned().size()));
@@ -295,7 +292,7 @@ namespace talus
   /// Give the impulses of a checkpoint to the facets, as soon as facets exist.
   template <int dim>
   void
-  FacetContact<dim>::take_restored(const State<dim> &state)
+  Contact<dim>::take_restored(const State<dim> &state)
   {
     if (!impulses_.is_waiting())
       return;
@@ -312,7 +309,7 @@ namespace talus
   /// Impulses stay with their cells when obstacles move.
   template <int dim>
   void
-  FacetContact<dim>::begin_step(State<dim> &state)
+  Contact<dim>::begin_step(State<dim> &state)
   {
     take_restored(state);
     if (obstacles_.move())
@@ -329,8 +326,8 @@ namespace talus
   /// Distribute the impulse of a facet, N s, to the nodes of the facet.
   template <int dim>
   void
-  FacetContact<dim>::add_impulse(const unsigned int    facet,
-                                 const Tensor<1, dim> &impulse)
+  Contact<dim>::add_impulse(const unsigned int    facet,
+                            const Tensor<1, dim> &impulse)
   {
     const auto &node = facets_.owned()[facet].node;
     for (unsigned int v = 0; v < node.size(); ++v)
@@ -344,14 +341,14 @@ namespace talus
   // remaining light nodes.
   template <int dim>
   void
-  FacetContact<dim>::warm_start(const State<dim> &state)
+  Contact<dim>::warm_start(const State<dim> &state)
   {
     const double longer =
       (previous_time_step_ > 0 ? state.time_step / previous_time_step_ : 1.);
     for (unsigned int c = 0; c < facets_.owned().size(); ++c)
       {
-        const FacetConstraint<dim> &constraint = constraints_[c];
-        FacetImpulse<dim>          &impulse    = impulses_[c];
+        const ContactConstraint<dim> &constraint = constraints_[c];
+        ContactImpulse<dim>          &impulse    = impulses_[c];
         if (!constraint.is_loaded || constraint.gap > 0 ||
             constraint.normal_mass == 0 || impulse.effective_mass == 0)
           {
@@ -383,7 +380,7 @@ namespace talus
   // impulses of this sweep.
   template <int dim>
   void
-  FacetContact<dim>::sweep(const State<dim> &state)
+  Contact<dim>::sweep(const State<dim> &state)
   {
     const double dt = state.time_step;
     bodies_.update_velocities(state);
@@ -392,7 +389,7 @@ namespace talus
         if (constraints_[c].normal_mass == 0)
           continue;
         const ContactFacet<dim> &facet   = facets_.owned()[c];
-        FacetImpulse<dim>       &impulse = impulses_[c];
+        ContactImpulse<dim>     &impulse = impulses_[c];
         const Tensor<1, dim>     of_obstacle =
           obstacles_[facet.obstacle].velocity_at(facet.centroid,
                                                  state.time + 0.5 * dt);
@@ -419,7 +416,7 @@ namespace talus
   // rule. The nodes have no area in contact, hence no friction.
   template <int dim>
   void
-  FacetContact<dim>::hold_nodes_inside(State<dim> &state)
+  Contact<dim>::hold_nodes_inside(State<dim> &state)
   {
     impulses_inside_.clear();
     const double dt = state.time_step;
@@ -449,18 +446,18 @@ namespace talus
   /// Return impulses and works of this rank, one entry per obstacle.
   template <int dim>
   std::vector<StepReaction<dim>>
-  FacetContact<dim>::reactions_of_obstacles(const State<dim> &state) const
+  Contact<dim>::reactions_of_obstacles(const State<dim> &state) const
   {
     std::vector<StepReaction<dim>> steps(obstacles_.size());
     for (const unsigned int c : constraints_.loaded())
       {
-        const FacetImpulse<dim> &impulse = impulses_[c];
+        const ContactImpulse<dim> &impulse = impulses_[c];
         if (!impulse.acts())
           continue;
-        const ContactFacet<dim>    &facet      = facets_.owned()[c];
-        const FacetConstraint<dim> &constraint = constraints_[c];
-        StepReaction<dim>          &step       = steps[facet.obstacle];
-        Tensor<1, dim>              v;
+        const ContactFacet<dim>      &facet      = facets_.owned()[c];
+        const ContactConstraint<dim> &constraint = constraints_[c];
+        StepReaction<dim>            &step       = steps[facet.obstacle];
+        Tensor<1, dim>                v;
         for (unsigned int i = 0; i < facet.node.size(); ++i)
           v += constraint.share[i] * state.nodes.mean_velocity(facet.node[i]);
         step.add_contact(facet.centroid -
@@ -484,15 +481,15 @@ namespace talus
   /// Record impulses and works at the nodes of seabed faces.
   template <int dim>
   void
-  FacetContact<dim>::record_nodes(State<dim> &state)
+  Contact<dim>::record_nodes(State<dim> &state)
   {
     StepReaction<dim> of_all;
     auto             &reactions = boundaries_.reactions();
     for (const unsigned int i : constraints_.loaded_nodes())
       {
-        const FaceNode<dim>     &at      = face_nodes_[i];
-        const unsigned int       c       = constraints_.place_of_node(i);
-        const FacetImpulse<dim> &impulse = impulses_[c];
+        const FaceNode<dim>       &at      = face_nodes_[i];
+        const unsigned int         c       = constraints_.place_of_node(i);
+        const ContactImpulse<dim> &impulse = impulses_[c];
         if (!impulse.acts())
           continue;
         StepReaction<dim> step;
@@ -517,7 +514,7 @@ namespace talus
   // balance the change of kinetic energy.
   template <int dim>
   void
-  FacetContact<dim>::record(State<dim> &state)
+  Contact<dim>::record(State<dim> &state)
   {
     record_nodes(state);
     if (obstacles_.empty())
@@ -537,8 +534,7 @@ namespace talus
 
   template <int dim>
   void
-  FacetContact<dim>::list_quantities(const State<dim> &state,
-                                     Quantities       &list) const
+  Contact<dim>::list_quantities(const State<dim> &state, Quantities &list) const
   {
     const bool on_seabed    = boundaries_.seabed().changes_by_slip();
     const bool on_obstacles = obstacles_.change_by_slip();
@@ -565,7 +561,7 @@ namespace talus
 
   template <int dim>
   void
-  FacetContact<dim>::list_state(StateList &list)
+  Contact<dim>::list_state(StateList &list)
   {
     list.add("contact has begun", "-", has_begun_, Reduction::equal);
     list.add("time step of the contact",
@@ -581,6 +577,6 @@ namespace talus
 
 
 
-  template class FacetContact<2>;
-  template class FacetContact<3>;
+  template class Contact<2>;
+  template class Contact<3>;
 } // namespace talus

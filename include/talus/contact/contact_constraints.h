@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef talus_contact_facet_constraints_h
-#define talus_contact_facet_constraints_h
+#ifndef talus_contact_contact_constraints_h
+#define talus_contact_contact_constraints_h
 
 #include <talus/boundaries/bed_slip.h>
 #include <talus/contact/contact_nodes.h>
@@ -16,7 +16,7 @@ namespace talus
   /// Soil at a facet, or at a node of a seabed face, in the current step. A
   /// place without soil keeps the default values.
   template <int dim>
-  struct FacetConstraint
+  struct ContactConstraint
   {
     /// Weights of the nodes in the velocity at the facet [-]; sum 1.
     std::array<double, ContactFacet<dim>::n_nodes> share{};
@@ -34,17 +34,17 @@ namespace talus
   /// Constraints of all places of contact: the facets in owned cells, followed
   /// by FaceNodes. The mean velocity of the soil at a place must not lead into
   /// the surface. Computes effective mass, gap, area in contact and limit of
-  /// friction; FacetContact computes the impulses.
+  /// friction; Contact computes the impulses.
   template <int dim>
-  class FacetConstraints
+  class ContactConstraints
   {
   public:
-    FacetConstraints(const Obstacles<dim>    &obstacles,
-                     const Facets<dim>       &facets,
-                     const FaceNodes<dim>    &face_nodes,
-                     const ContactNodes<dim> &nodes,
-                     const SoilAtPlaces<dim> &soil,
-                     const BedSlip<dim>      &slip)
+    ContactConstraints(const Obstacles<dim>    &obstacles,
+                       const Facets<dim>       &facets,
+                       const FaceNodes<dim>    &face_nodes,
+                       const ContactNodes<dim> &nodes,
+                       const SoilAtPlaces<dim> &soil,
+                       const BedSlip<dim>      &slip)
       : obstacles_(obstacles)
       , facets_(facets)
       , face_nodes_(face_nodes)
@@ -76,13 +76,13 @@ namespace talus
 
     /// Return the constraints of the step, one per facet of Facets::owned()
     /// and one per entry of FaceNodes.
-    const std::vector<FacetConstraint<dim>> &
+    const std::vector<ContactConstraint<dim>> &
     all() const
     {
       return constraints_;
     }
 
-    const FacetConstraint<dim> &
+    const ContactConstraint<dim> &
     operator[](const unsigned int place) const
     {
       return constraints_[place];
@@ -129,13 +129,6 @@ namespace talus
     CoulombLimit
     limit(unsigned int place) const;
 
-    /// Return the maximum friction impulse on soil at rest, N s.
-    /// @param place number of the place
-    /// @param normal_impulse impulse along the normal, N s
-    /// @param dt time step, s
-    double
-    friction_limit(unsigned int place, double normal_impulse, double dt) const;
-
     /// Return the length of the tangential impulse, N s, at most @p trial.
     /// @param place number of the place
     /// @param trial tangential impulse that would stop the soil, N s
@@ -158,28 +151,28 @@ namespace talus
   private:
     bool
     find_shares(const ContactFacet<dim> &facet,
-                FacetConstraint<dim>    &constraint) const;
+                ContactConstraint<dim>  &constraint) const;
     void
     require_uniform(const ContactFacet<dim> &facet) const;
     void
     find_masses(const ContactFacet<dim> &facet,
-                FacetConstraint<dim>    &constraint) const;
+                ContactConstraint<dim>  &constraint) const;
     double
-    averaging_weight(const State<dim>           &state,
-                     const ContactFacet<dim>    &facet,
-                     const FacetConstraint<dim> &constraint) const;
+    averaging_weight(const State<dim>             &state,
+                     const ContactFacet<dim>      &facet,
+                     const ContactConstraint<dim> &constraint) const;
     dealii::Tensor<1, dim>
-    velocity(const ContactFacet<dim>    &facet,
-             const FacetConstraint<dim> &constraint) const;
+    velocity(const ContactFacet<dim>      &facet,
+             const ContactConstraint<dim> &constraint) const;
 
-    const Obstacles<dim>             &obstacles_;
-    const Facets<dim>                &facets_;
-    const FaceNodes<dim>             &face_nodes_;
-    const ContactNodes<dim>          &nodes_;
-    const SoilAtPlaces<dim>          &soil_;
-    const BedSlip<dim>               &slip_; ///< by place; empty: not kept
-    std::vector<FacetConstraint<dim>> constraints_;
-    std::vector<unsigned int>         loaded_, loaded_nodes_;
+    const Obstacles<dim>               &obstacles_;
+    const Facets<dim>                  &facets_;
+    const FaceNodes<dim>               &face_nodes_;
+    const ContactNodes<dim>            &nodes_;
+    const SoilAtPlaces<dim>            &soil_;
+    const BedSlip<dim>                 &slip_; ///< by place; empty: not kept
+    std::vector<ContactConstraint<dim>> constraints_;
+    std::vector<unsigned int>           loaded_, loaded_nodes_;
   };
 } // namespace talus
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef talus_contact_facet_contact_h
-#define talus_contact_facet_contact_h
+#ifndef talus_contact_contact_h
+#define talus_contact_contact_h
 
 #include <talus/boundaries/boundaries.h>
 #include <talus/boundaries/reaction.h>
 #include <talus/contact/body_coupling.h>
+#include <talus/contact/contact_constraints.h>
+#include <talus/contact/contact_impulses.h>
 #include <talus/contact/contact_nodes.h>
 #include <talus/contact/face_nodes.h>
-#include <talus/contact/facet_constraints.h>
-#include <talus/contact/facet_impulses.h>
 #include <talus/contact/facets.h>
 #include <talus/interaction/nodal_interaction.h>
 #include <talus/state/state.h>
@@ -28,11 +28,11 @@ namespace talus
   /// step, which are nearly right where soil rests or slides. The impulse of a
   /// node of a face is exact at once. doc/method.md, section "Contact".
   template <int dim>
-  class FacetContact : public NodalInteraction<dim>
+  class Contact : public NodalInteraction<dim>
   {
   public:
     /// @p boundaries tell which faces are a seabed and hold the nodes at walls.
-    FacetContact(Obstacles<dim> &obstacles, Boundaries<dim> &boundaries);
+    Contact(Obstacles<dim> &obstacles, Boundaries<dim> &boundaries);
 
     const Obstacles<dim> &
     obstacles() const
@@ -105,7 +105,7 @@ namespace talus
 
     /// Return the impulses of the last step, one per facet of facets().owned()
     /// and one per entry of face_nodes().
-    const std::vector<FacetImpulse<dim>> &
+    const std::vector<ContactImpulse<dim>> &
     impulses() const
     {
       return impulses_.all();
@@ -165,7 +165,7 @@ namespace talus
 
     /// Return the constraints of the last find_constraints() or the last step;
     /// empty after prepare().
-    const FacetConstraints<dim> &
+    const ContactConstraints<dim> &
     constraints() const
     {
       return constraints_;
@@ -175,7 +175,7 @@ namespace talus
     /// one impulse per facet, each for a duration of 1 s. The first step scales
     /// the impulses to the time step.
     void
-    set_forces(const std::vector<FacetImpulse<dim>> &forces);
+    set_forces(const std::vector<ContactImpulse<dim>> &forces);
 
     /// Return the impulses as rows, to undo later steps by restore().
     std::vector<double>
@@ -242,16 +242,16 @@ namespace talus
     Boundaries<dim>           &boundaries_;
     Facets<dim>                facets_;
     FaceNodes<dim>             face_nodes_{boundaries_};
-    FacetImpulses<dim>         impulses_;
+    ContactImpulses<dim>       impulses_;
     BedSlip<dim>               slip_; ///< by place
     std::vector<Reaction<dim>> reactions_;
     bool                       has_begun_          = false;
     double                     previous_time_step_ = 0; ///< s
 
     // Data of one step
-    SoilAtPlaces<dim>     soil_{obstacles_, facets_};
-    ContactNodes<dim>     nodes_{facets_};
-    FacetConstraints<dim> constraints_{
+    SoilAtPlaces<dim>       soil_{obstacles_, facets_};
+    ContactNodes<dim>       nodes_{facets_};
+    ContactConstraints<dim> constraints_{
       obstacles_, facets_, face_nodes_, nodes_, soil_, slip_};
     BodyCoupling<dim> bodies_{obstacles_, facets_, constraints_, impulses_};
     std::vector<ImpulseInside> impulses_inside_;

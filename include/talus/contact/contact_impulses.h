@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef talus_contact_facet_impulses_h
-#define talus_contact_facet_impulses_h
+#ifndef talus_contact_contact_impulses_h
+#define talus_contact_contact_impulses_h
 
 #include <talus/contact/face_nodes.h>
 #include <talus/contact/facets.h>
@@ -34,7 +34,7 @@ namespace talus
 
   /// Impulse of a facet, or of a node of a seabed face, on the soil in a step.
   template <int dim>
-  struct FacetImpulse
+  struct ContactImpulse
   {
     double                 normal = 0;         ///< along the normal, N s, >= 0
     dealii::Tensor<1, dim> tangential;         ///< along the facet, N s
@@ -76,7 +76,7 @@ namespace talus
   /// FaceNodes. An impulse survives motion of obstacles as long as the cell has
   /// a facet of the same number.
   template <int dim>
-  using FacetImpulses = PlaceTable<FacetImpulse<dim>>;
+  using ContactImpulses = PlaceTable<ContactImpulse<dim>>;
 } // namespace talus
 
 #endif

@@ -4,9 +4,9 @@
 #include "soil_on_bed.h"
 #include "suites.h"
 
-namespace facet_constraints_test
+namespace contact_constraints_test
 {
-  TALUS_ALSO_ON_RANKS(FacetConstraints, 2, 3);
+  TALUS_ALSO_ON_RANKS(ContactConstraints, 2, 3);
 
   /// Call action(constraint, facet, x) for the loaded facets of this rank, with
   /// the lower end x of the cell, m. Returns their number on all ranks.
@@ -50,27 +50,27 @@ namespace facet_constraints_test
       });
     EXPECT_EQ(n, dim == 2 ? 6u : 12u);
   }
-} // namespace facet_constraints_test
+} // namespace contact_constraints_test
 
 
 
-TEST(FacetConstraints, FullCells)
+TEST(ContactConstraints, FullCells)
 {
-  facet_constraints_test::expect_full_cells<2>();
-  facet_constraints_test::expect_full_cells<3>();
+  contact_constraints_test::expect_full_cells<2>();
+  contact_constraints_test::expect_full_cells<3>();
 }
 
 
 
 // The node at the end of the soil, x = 3 m, has half the volume fraction and
 // half the weight; 187.5 kg of soil for each of its two facets.
-TEST(FacetConstraints, EndOfTheSoil)
+TEST(ContactConstraints, EndOfTheSoil)
 {
   SoilOnBed<2> soil;
   soil.fill_boxes({0., 2.}, {3., 4.});
   soil.move({});
   soil.find_constraints();
-  const unsigned int n = facet_constraints_test::for_each_loaded(
+  const unsigned int n = contact_constraints_test::for_each_loaded(
     soil, [&](const auto &constraint, const ContactFacet<2> &, const double x) {
       const std::array<double, 2> share =
         x < 1.5   ? std::array<double, 2>{{0.5, 0.5}}
@@ -98,7 +98,7 @@ TEST(FacetConstraints, EndOfTheSoil)
 
 
 
-TEST(FacetConstraints, GapUnderTheSoil)
+TEST(ContactConstraints, GapUnderTheSoil)
 {
   for (const double height : {0., 0.03, 0.3})
     {
@@ -106,7 +106,7 @@ TEST(FacetConstraints, GapUnderTheSoil)
       soil.fill_boxes({0., 2. + height}, {6., 3.5 + height});
       soil.move({});
       soil.find_constraints();
-      const unsigned int n = facet_constraints_test::for_each_loaded(
+      const unsigned int n = contact_constraints_test::for_each_loaded(
         soil, [&](const auto &constraint, const auto &, double) {
           EXPECT_NEAR(constraint.gap, std::max(0., height - 0.05), 1e-14);
         });
@@ -119,7 +119,7 @@ TEST(FacetConstraints, GapUnderTheSoil)
 // All nodes of a mesh one cell wide lie on walls. Walls that hold x leave 0.64
 // of a normal (0.6, 0.8), so the soil resists along the normal with 1/0.64 of
 // its mass; walls that hold all leave nothing.
-TEST(FacetConstraints, WallsHoldPartOfTheNormal)
+TEST(ContactConstraints, WallsHoldPartOfTheNormal)
 {
   for (const std::string wall : {"free", "roller", "fixed"})
     {
@@ -130,7 +130,7 @@ TEST(FacetConstraints, WallsHoldPartOfTheNormal)
       soil.fill_boxes({0., 2.5}, {1., 4.});
       soil.move({});
       soil.find_constraints();
-      const unsigned int n = facet_constraints_test::for_each_loaded(
+      const unsigned int n = contact_constraints_test::for_each_loaded(
         soil, [&](const auto &constraint, const auto &, double) {
           EXPECT_GT(constraint.mass, 0.);
           EXPECT_NEAR(constraint.normal_mass,
@@ -145,7 +145,7 @@ TEST(FacetConstraints, WallsHoldPartOfTheNormal)
 
 
 
-TEST(FacetConstraints, FrictionOfCoulombWithACap)
+TEST(ContactConstraints, FrictionOfCoulombWithACap)
 {
   SoilOnBed<2> soil(
     "set Friction coefficient = 0.25\nset Maximum shear stress = 1000");
@@ -159,7 +159,7 @@ TEST(FacetConstraints, FrictionOfCoulombWithACap)
       for (const auto &[normal, limit] :
            {std::pair(0., 0.), {8., 2.}, {39., 9.75}, {41., 10.}, {1e6, 10.}})
         {
-          EXPECT_NEAR(soil.constraints.friction_limit(f, normal, dt),
+          EXPECT_NEAR(dt * soil.constraints.limit(f).force(normal / dt),
                       limit,
                       1e-12);
           EXPECT_NEAR(soil.constraints.friction_impulse(f, 9., normal, dt),
@@ -172,7 +172,7 @@ TEST(FacetConstraints, FrictionOfCoulombWithACap)
 
 
 // Slip of 0.02 m in the step; none where the obstacle moves with the soil.
-TEST(FacetConstraints, MemoryFollowsTheSlip)
+TEST(ContactConstraints, MemoryFollowsTheSlip)
 {
   for (const bool moves_along : {false, true})
     {
@@ -181,7 +181,7 @@ TEST(FacetConstraints, MemoryFollowsTheSlip)
       soil.fill_boxes({0., 2.}, {6., 4.});
       soil.move(Point<2>(2., -5.));
       soil.find_constraints(/*has_memory=*/true);
-      const unsigned int n = facet_constraints_test::for_each_loaded(
+      const unsigned int n = contact_constraints_test::for_each_loaded(
         soil, [&](const auto &constraint, const auto &, double) {
           EXPECT_NEAR(constraint.averaging_weight,
                       1. / 32. + (moves_along ? 0. : 0.02 / 0.05),
@@ -196,7 +196,7 @@ TEST(FacetConstraints, MemoryFollowsTheSlip)
 
 
 
-TEST(FacetConstraints, SoilWhereCellsDifferInSizeIsRefused)
+TEST(ContactConstraints, SoilWhereCellsDifferInSizeIsRefused)
 {
   SoilOnBed<2> soil;
   soil.refine([](const Point<2> &x) { return x[0] < 2. && x[1] < 2.; });
