@@ -98,6 +98,9 @@ namespace
     void
     load(const Tensor<1, dim> &gravity)
     {
+      for (unsigned int p = 0; p < points.size(); ++p)
+        materials.of_body(points.data(points.body)[p])
+          .initialize(points, p, p + 1);
       boundaries.prepare(grid);
       contact.prepare(grid);
       for (auto &acceleration : loads.acceleration_of_body)

@@ -57,7 +57,7 @@ namespace talus
                   });
     if (!is_sound)
       throw_inverted_point(
-        points, begin, end, this->shear_modulus(), this->submerged_density());
+        points, begin, end, this->moduli().mu, this->submerged_density());
   }
 
 

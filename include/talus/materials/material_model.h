@@ -84,21 +84,12 @@ namespace talus
     virtual double
     shear_strength(const Points<dim> &points, unsigned int p) const;
 
-    /// Strength of undisturbed soil as given by the user; null without
-    /// strength.
+    /// Strength of undisturbed soil as given by the user; null for laws without
+    /// the column `undrained shear strength`, to be set for new points.
     virtual const UndrainedStrength *
     undrained_strength() const
     {
       return nullptr;
-    }
-
-    /// Return whether the strength differs from point to point. The law then
-    /// has the column `undrained shear strength`, to be set for new points.
-    bool
-    has_strength_column() const
-    {
-      const UndrainedStrength *strength = undrained_strength();
-      return strength != nullptr && strength->varies();
     }
 
     /// Throw ExcUser if the law does not allow undrained shear strengths in the
@@ -109,10 +100,9 @@ namespace talus
 
     /// Largest allowed strength factor [-]: stronger softening soil would
     /// soften faster than it can unload elastically. Infinite without
-    /// softening. @p range, the range of strengths, is used only if
-    /// has_strength_column().
+    /// softening. @p range is the range of undrained shear strengths.
     virtual double
-    largest_strength_factor(const StrengthRange & /*range*/ = {1., 1.}) const
+    largest_strength_factor(const StrengthRange & /*range*/) const
     {
       return std::numeric_limits<double>::infinity();
     }
@@ -195,18 +185,12 @@ namespace talus
                      unsigned int              end,
                      StrainMeasure             measure) const = 0;
 
-    /// Shear modulus of the undeformed material, Pa.
+    /// Largest shear modulus of the undeformed material at the points
+    /// [begin, end), Pa.
     virtual double
-    shear_modulus() const = 0;
-
-    /// Largest shear modulus at the points [begin, end), Pa.
-    virtual double
-    largest_shear_modulus(const Points<dim> & /*points*/,
-                          unsigned int /*begin*/,
-                          unsigned int /*end*/) const
-    {
-      return shear_modulus();
-    }
+    largest_shear_modulus(const Points<dim> &points,
+                          unsigned int       begin,
+                          unsigned int       end) const = 0;
 
     /// Compute the modulus M = rho c^2 of the fastest wave at the points
     /// [begin, end), Pa, with wave speed c and current density rho; stored in

@@ -30,8 +30,7 @@ namespace talus
     check_strength(const StrengthRange &range) const override;
 
     double
-    largest_strength_factor(const StrengthRange &range = {1.,
-                                                          1.}) const override;
+    largest_strength_factor(const StrengthRange &range) const override;
 
     double
     shear_strength(const Points<dim> &points, unsigned int p) const override;
@@ -49,6 +48,9 @@ namespace talus
   private:
     double
     shear_per_plastic_variable() const override;
+
+    std::string
+    slower_softening(double times) const override;
 
     VonMisesFlow
     flow_rule(double dt) const override;

@@ -16,16 +16,16 @@ namespace return_mapping_test
   /// from the apex. The plastic variable is the plastic shear strain.
   struct ConeFlow
   {
-    template <int dim, typename Number, typename Variable, typename Factor>
+    template <int dim, typename Number, typename Strength>
     Flow<Number, Number>
     operator()(const StressStep<dim, Number> &trial,
-               const Variable & /*plastic*/,
-               const Factor &factor) const
+               const Strength & /*softening*/,
+               const PointStrength<Strength> &point) const
     {
-      const auto  &s        = trial.deviator_after;
-      const Number tau      = sqrt(0.5 * contract(s, s) + 1e-300);
-      const Number strength = (cohesion - friction * trial.mean_after) *
-                              share_of_given_strength(factor);
+      const auto  &s   = trial.deviator_after;
+      const Number tau = sqrt(0.5 * contract(s, s) + 1e-300);
+      const Number strength =
+        (cohesion - friction * trial.mean_after) * point.factor;
       const Number shear =
         max(Number((tau - strength) *
                    (1. / (sand.mu + sand.bulk * friction * dilation))),
