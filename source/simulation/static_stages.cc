@@ -268,8 +268,7 @@ namespace talus
     throw ExcUser(
       sentence +
       " 'no-equilibrium' in the output folder shows where the soil moved. "
-      "Either the soil cannot bear its weight, and needs more strength or "
-      "support before the trigger" +
+      "Either the soil needs more strength or support before the trigger" +
       (stages_.contain(Stage::strength_reduction)
          ? ""
          : " (a following stage 'strength reduction' finds how much)") +

@@ -280,7 +280,7 @@ class BadInput(Case):
                  "Materials/clay/Poisson's ratio=0",
                  "Materials/clay/Softening displacement=1e-5"]),
                 "`Grid/Cell size` of at most 0.00165 m",
-                "`Softening displacement` of at least 0.00606061 m")
+                "`Softening displacement` of at least 0.006060606")
         self.assert_untouched()
 
     def test_numbers_beyond_all_units(self):
