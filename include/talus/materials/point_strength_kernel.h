@@ -11,12 +11,11 @@ namespace talus
   template <typename Number>
   struct PointStrength
   {
-    Number
-      undisturbed;    ///< undrained shear strength times `factor`, Pa; 0 under
-                      ///< laws without the column
-    Number factor;    ///< strength factor [-]
-    Number stiffness; ///< moduli of the point over the moduli of the law [-]
-    Number softening; ///< softening per plastic variable [-]
+    Number undisturbed; ///< undrained shear strength times `factor`, Pa
+    Number factor;      ///< strength factor [-]
+    Number stiffness;   ///< moduli of the point over the moduli of the law [-]
+    Number compliance;  ///< inverse of `stiffness` [-]
+    Number softening;   ///< softening per plastic variable [-]
   };
 
 
@@ -40,10 +39,11 @@ namespace talus
   /// Function strength(p, number) for the PointStrength of point(s) p.
   struct StrengthOfPoints
   {
-    ColumnOrNumber strength  = {nullptr, 0.}; ///< undrained shear strength, Pa
-    ColumnOrNumber factor    = {};            ///< strength factor [-]
-    ColumnOrNumber stiffness = {};            ///< as in PointStrength
-    ColumnOrNumber cell_size = {};            ///< m; 1 if not used
+    ColumnOrNumber strength = {nullptr, 0.}; ///< undrained shear strength, Pa;
+                                             ///< 0 if the law has none
+    ColumnOrNumber factor         = {};      ///< strength factor [-]
+    ColumnOrNumber stiffness      = {};      ///< as in PointStrength
+    ColumnOrNumber cell_size      = {};      ///< m; 1 if not used
     double         softening_rate = 1.; ///< softening over plastic variable and
                                         ///< cell size, 1/m
     /// Column of the softening [-], on which the strength depends: the plastic
@@ -56,9 +56,12 @@ namespace talus
     operator()(const unsigned int p, const Number & /*number*/) const
     {
       const Number share = factor.at<Number>(p);
+      // A division only where points differ.
+      const Number ratio = stiffness.at<Number>(p);
       return {share * strength.at<Number>(p),
               share,
-              stiffness.at<Number>(p),
+              ratio,
+              stiffness.column == nullptr ? ratio : Number(1. / ratio),
               softening_rate * cell_size.at<Number>(p)};
     }
   };

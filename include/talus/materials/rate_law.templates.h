@@ -103,9 +103,9 @@ namespace talus
                                              this->moduli(),
                                              rule,
                                              strength_of(points)};
-    bool                         is_sound = true;
     constexpr unsigned int       n        = n_registers_at_once<Rule>;
     unsigned int                 rest     = begin;
+    bool                         is_sound = true;
     if constexpr (n > 1)
       for (; rest + n * simd_width <= end; rest += n * simd_width)
         is_sound &=
@@ -202,13 +202,8 @@ namespace talus
             trial.motion.volume_before = trial.motion.volume_after =
               volume_of_points<dim, double>(points, p);
           }
-        trial.strain   = strain_of_load_step(trial.motion.increment, measure);
-        trial.strength = step.strength(p, double());
-        trial.moduli   = moduli_of_point(step.moduli, trial.strength);
-        trial.stress =
-          elastic_trial<dim, double>(load_stress<dim, double>(points, p),
-                                     trial.strain,
-                                     trial.moduli);
+        trial.strain = strain_of_load_step(trial.motion.increment, measure);
+        set_trial_stress(step, p, trial);
         const auto flow =
           step.flow_rule(trial.stress, softening(points, p), trial.strength);
         if constexpr (is_plastic)

@@ -91,10 +91,10 @@ namespace talus
          const PointStrength<Number>      &strength)
   {
     double *const plastic = step.points.data(step.plastic) + p;
-    const Number  after   = load<Number>(plastic) + increment;
-    store(step.points.data(step.strength.softening_column) + p,
-          softening<Number>(step, p) + strength.softening * increment);
-    store(plastic, after);
+    store(plastic, load<Number>(plastic) + increment);
+    if (step.strength.softening_column != step.plastic)
+      store(step.points.data(step.strength.softening_column) + p,
+            softening<Number>(step, p) + strength.softening * increment);
   }
 
 
@@ -106,9 +106,28 @@ namespace talus
     Motion<dim, Number>          motion;
     StrainIncrement<dim, Number> strain;
     PointStrength<Number>        strength;
-    ModuliOf<Number>             moduli; ///< elastic constants, Pa
+    ModuliOf<Number>             moduli;     ///< elastic constants, Pa
+    Number                       compliance; ///< inverse of moduli.mu, 1/Pa
     StressStep<dim, Number>      stress;
   };
+
+
+
+  /// Compute the trial stress of point(s) @p p from motion and strain.
+  template <int dim, typename Number, typename FlowRule>
+  TALUS_ALWAYS_INLINE void
+  set_trial_stress(const RateLawStep<dim, FlowRule> &step,
+                   const unsigned int                p,
+                   RateLawTrial<dim, Number>        &trial)
+  {
+    trial.strength   = step.strength(p, Number());
+    trial.moduli     = moduli_of_point(step.moduli, trial.strength);
+    trial.compliance = 1. / step.moduli.mu * trial.strength.compliance;
+    trial.stress =
+      elastic_trial<dim, Number>(load_stress<dim, Number>(step.points, p),
+                                 trial.strain,
+                                 trial.moduli);
+  }
 
 
 
@@ -120,13 +139,8 @@ namespace talus
     RateLawTrial<dim, Number> trial;
     trial.motion =
       advance_edges<dim, Number>(step.points, step.workspace, p, step.dt);
-    trial.strain   = strain_increment(trial.motion);
-    trial.strength = step.strength(p, Number());
-    trial.moduli   = moduli_of_point(step.moduli, trial.strength);
-    trial.stress =
-      elastic_trial<dim, Number>(load_stress<dim, Number>(step.points, p),
-                                 trial.strain,
-                                 trial.moduli);
+    trial.strain = strain_increment(trial.motion);
+    set_trial_stress(step, p, trial);
     return trial;
   }
 
@@ -140,7 +154,7 @@ namespace talus
                const unsigned int               p,
                const RateLawTrial<dim, Number> &trial)
   {
-    const auto &[motion, strain, strength, moduli, stress] = trial;
+    const auto &[motion, strain, strength, moduli, compliance, stress] = trial;
     store_turned_stress<dim, Number>(points, p, strain, stress);
 
     const auto    force  = deviatoric_force<dim, Number>(motion, stress);
@@ -178,12 +192,13 @@ namespace talus
                    const RateLawTrial<dim, Number> &trial,
                    const Flow<Number, Dilation>    &flow)
   {
-    const auto &[motion, strain, strength, moduli, trial_stress] = trial;
+    const auto &[motion, strain, strength, moduli, compliance, trial_stress] =
+      trial;
     const auto stress = returned(trial_stress, moduli.bulk, flow);
     store_turned_stress<dim, Number>(points, p, strain, stress);
 
     const auto force        = deviatoric_force<dim, Number>(motion, stress);
-    Number     plastic_work = flow.removed * (0.5 / moduli.mu) *
+    Number     plastic_work = flow.removed * (0.5 * compliance) *
                           contract(force, trial_stress.deviator_after);
     if constexpr (std::is_same_v<Number, Dilation>)
       plastic_work += volumetric_work(motion, stress, flow.dilation);

@@ -76,12 +76,17 @@ namespace talus
                       const Strength                &softening,
                       const PointStrength<Strength> &strength) const
     {
-      const Strength modulus = 3. * (mu * strength.stiffness);
-      const Strength slope   = slope_of_line(strength);
-      const Number   on_line = (q - initial(strength) - slope * softening) *
-                             (1. / (modulus + slope * strength.softening));
-      const Number on_residual =
-        (q - residual * strength.factor) * (1. / modulus);
+      const Strength compliance = 1. / (3. * mu) * strength.compliance;
+      const Strength slope      = slope_of_line(strength);
+      // A division only if the line has a slope.
+      const Strength inverse =
+        hardening == 0. && !ends_at_one
+          ? compliance
+          : Strength(1. / (3. * (mu * strength.stiffness) +
+                           slope * strength.softening));
+      const Number on_line =
+        (q - initial(strength) - slope * softening) * inverse;
+      const Number on_residual = (q - residual * strength.factor) * compliance;
       return max(min(on_line, on_residual), Number{});
     }
 
