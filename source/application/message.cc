@@ -113,6 +113,20 @@ namespace talus
 
 
 
+    /// Return what replaces a parameter of former versions; otherwise empty.
+    std::string
+    replacement(const std::string &name)
+    {
+      return name == "Strain"
+               ? " Static stages always use small strain: remove "
+                 "the line. A body at large strain comes to rest "
+                 "in the stage 'dynamics', with 'Gravity/Ramp "
+                 "time' and 'Damping/Local damping'."
+               : "";
+    }
+
+
+
     /// Rewrite an @p error of the parameter parser as a sentence that begins
     /// with @p place and says what to do. Unknown messages, for example of a
     /// new version of deal.II, pass unchanged.
@@ -137,7 +151,10 @@ namespace talus
       std::smatch part;
       if (std::regex_match(error, part, unknown_entry))
         return place + "there is no parameter '" + part[1].str() +
-               "' in this section." + similar(part[1], "set ") + listed;
+               "' in this section." +
+               (replacement(part[1]).empty() ? similar(part[1], "set ")
+                                             : replacement(part[1])) +
+               listed;
       if (std::regex_match(error, part, unknown_section))
         return place + "there is no section '" + part[1].str() + "' here." +
                similar(part[1], "subsection ") + listed;

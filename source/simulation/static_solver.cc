@@ -4,7 +4,6 @@
 #include <talus/base/interrupt.h>
 #include <talus/simulation/static_solver.h>
 #include <talus/simulation/yielded_extent.h>
-#include <talus/transfer/send_to_owners.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -18,12 +17,10 @@ namespace talus
   StaticSolver<dim>::StaticSolver(State<dim>          &state,
                                   Problem<dim>        &problem,
                                   const Transfer<dim> &transfer,
-                                  BackgroundMesh<dim> &mesh,
                                   Log                 &log)
     : state_(state)
     , problem_(problem)
     , transfer_(transfer)
-    , mesh_(mesh)
     , log_(log)
   {}
 
@@ -80,10 +77,8 @@ namespace talus
 
 
 
-  /// Apply the load from zero to full. With large strain the points move: after
-  /// each load step points are relocated and the mesh is adapted, so that the
-  /// next step begins on suitable nodes. With small strain nothing moves, which
-  /// keeps the shape for which a factor of safety is sought.
+  /// Apply the load from zero to full. Nothing moves, which keeps the shape for
+  /// which a factor of safety is sought.
   ///
   /// In a trial the soil was in balance and may have become weaker. First a
   /// load step without displacement returns the stress to the new yield
@@ -108,11 +103,6 @@ namespace talus
           return false;
         if (!label.is_trial && !note.residuals.empty())
           tell(note);
-        if (options.measure == StrainMeasure::large)
-          {
-            mesh_.relocate_all();
-            mesh_.adapt();
-          }
       }
     return true;
   }
@@ -210,7 +200,6 @@ namespace talus
 
 
 
-  /// Points must be the same in the same order, as after small strain.
   template <int dim>
   void
   StaticSolver<dim>::restore(const Saved &saved)
@@ -227,33 +216,11 @@ namespace talus
 
 
 
-  /// After large strain points may be in different cells and on different
-  /// ranks. The points are created again from the saved copy of each rank and
-  /// sent to the ranks owning the positions; then the mesh is adapted.
-  /// Collective.
-  template <int dim>
-  void
-  StaticSolver<dim>::restore_and_relocate(const Saved &saved)
-  {
-    state_.points.clear();
-    state_.points.append(saved.columns[0].size());
-    restore(saved);
-    send_points_to_owners(state_.points, state_.grid);
-    mesh_.insert_points();
-    mesh_.adapt();
-  }
-
-
-
-  /// With small strain points have neither moved nor changed their order.
   template <int dim>
   void
   StaticSolver<dim>::undo_stage(const Saved &saved)
   {
-    if (equilibrium_.measure() == StrainMeasure::large)
-      restore_and_relocate(saved);
-    else
-      restore(saved);
+    restore(saved);
     if (is_first_rank(state_.communicator()))
       table_.cut(n_table_bytes_);
   }

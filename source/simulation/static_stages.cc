@@ -13,14 +13,13 @@ namespace talus
   StaticStages<dim>::StaticStages(State<dim>          &state,
                                   Problem<dim>        &problem,
                                   const Transfer<dim> &transfer,
-                                  BackgroundMesh<dim> &mesh,
                                   const Output<dim>   &output,
                                   Log                 &log)
     : state_(state)
     , problem_(problem)
     , output_(output)
     , log_(log)
-    , solver_(state, problem, transfer, mesh, log)
+    , solver_(state, problem, transfer, log)
   {}
 
 
@@ -109,8 +108,8 @@ namespace talus
   StaticStages<dim>::check() const
   {
     const std::vector<std::string> names_of_bodies = problem_.bodies().names();
-    if (stages_.contain(Stage::equilibrium))
-      equilibrium().check(problem_.materials, names_of_bodies);
+    if (stages_.has_static())
+      Equilibrium<dim>::check(problem_.materials, names_of_bodies);
     AssertThrow(!stages_.has_static() ||
                   problem_.loading.share_of_gravity(0.) > 0.,
                 ExcUser("Stages lists a stage before 'dynamics', computed with "
@@ -146,8 +145,7 @@ namespace talus
     const typename StaticSolver<dim>::Saved &before)
   {
     log_.say(LogLevel::result, "Stage 'equilibrium':");
-    if (!solver_.find(equilibrium().options(equilibrium().measure()),
-                      {stages_.number(), 1.}) &&
+    if (!solver_.find(equilibrium().options(), {stages_.number(), 1.}) &&
         !solver_.is_stopped())
       {
         if (!stages_.contain(Stage::strength_reduction))
@@ -213,7 +211,7 @@ namespace talus
   void
   StaticStages<dim>::continue_with_dynamics()
   {
-    if (!equilibrium().options(StrainMeasure::small).is_well_balanced)
+    if (!equilibrium().options().is_well_balanced)
       return;
     solver_.begin_stage();
     let_weight_act();
@@ -230,14 +228,13 @@ namespace talus
   void
   StaticStages<dim>::let_weight_act()
   {
-    if (!stages_.contain(Stage::equilibrium) || standing_factor_ != 1. ||
-        equilibrium().measure() == StrainMeasure::large)
+    if (!stages_.contain(Stage::equilibrium) || standing_factor_ != 1.)
       return;
     const auto before = solver_.save();
     // The last static stage, which is done if a resumed run adds the dynamics.
     const unsigned int stage =
       stages_.number() - (stages_.next_is_static() ? 0 : 1);
-    StaticOptions options    = equilibrium().options(StrainMeasure::small);
+    StaticOptions options    = equilibrium().options();
     options.is_well_balanced = false;
     if (solver_.find(options, {stage, 1., true}))
       log_.say(LogLevel::result,
@@ -294,19 +291,6 @@ namespace talus
 
 
 
-  /// Small strain keeps the shape for which the factor of safety is sought:
-  /// with large strain and slightly more strength the slope would stand after a
-  /// long displacement. Hyperelastic laws support large strain only.
-  template <int dim>
-  StrainMeasure
-  StaticStages<dim>::measure_of_stronger_soil() const
-  {
-    return problem_.has_hyperelastic_body() ? StrainMeasure::large
-                                            : StrainMeasure::small;
-  }
-
-
-
   /// The soil does not stand with the actual strength. To provide an initial
   /// state for the stage 'strength reduction', search for a strength with which
   /// the soil stands. @p before is the state without loads.
@@ -334,11 +318,10 @@ namespace talus
                                "either. " +
                                strength_reduction_.result());
         const double factor = strength_reduction_.next();
-        solver_.restore_and_relocate(before);
+        solver_.restore(before);
         divide_strength(factor);
         const bool stands =
-          solver_.find(equilibrium().options(measure_of_stronger_soil()),
-                       {stages_.number(), factor});
+          solver_.find(equilibrium().options(), {stages_.number(), factor});
         if (solver_.is_stopped())
           return;
         strength_reduction_.record(factor, stands);
@@ -374,8 +357,7 @@ namespace talus
     problem_.scale_seabed_strength(
       strength_reduction_.includes_seabed() ? 1. / standing_factor_ : 1.);
     log_.say(LogLevel::result, strength_reduction_.result());
-    if (!stages_.contain(Stage::equilibrium) ||
-        equilibrium().measure() == StrainMeasure::large)
+    if (!stages_.contain(Stage::equilibrium))
       tell_of_well_balanced_load();
     const auto notes =
       failure_depth_.notes(state_, problem_, strength_reduction_.factor());
@@ -438,12 +420,11 @@ namespace talus
       is_stable_with(standing_factor_) || solver_.is_stopped(),
       ExcUser(text(
         "The stage 'strength reduction' starts from soil that is out of "
-        "balance in small strain, so that no factor of safety exists. ",
+        "balance, so that no factor of safety exists. ",
         equilibrium().failure(),
-        ". Set 'Equilibrium/Strain' to small or 'Equilibrium/Allowed "
-        "imbalance' to less; or, if the imbalance is small against the "
-        "required 'Tolerance' of the factor, set 'Strength reduction/Allowed "
-        "imbalance' to more.")));
+        ". Set 'Equilibrium/Allowed imbalance' to less; or, if the imbalance "
+        "is small against the required 'Tolerance' of the factor, set "
+        "'Strength reduction/Allowed imbalance' to more.")));
   }
 
 
@@ -454,8 +435,8 @@ namespace talus
   StaticStages<dim>::is_stable_with(const double factor)
   {
     divide_strength(factor);
-    return solver_.find(strength_reduction_.options(
-                          factor, equilibrium().options(StrainMeasure::small)),
+    return solver_.find(strength_reduction_.options(factor,
+                                                    equilibrium().options()),
                         {stages_.number(), factor, true});
   }
 

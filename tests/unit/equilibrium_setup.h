@@ -119,10 +119,10 @@ namespace
     /// Search until the end. Returns whether equilibrium is found; residuals by
     /// run of Newton's method are in @p runs.
     bool
-    find(const StrainMeasure measure = StrainMeasure::small)
+    find()
     {
       runs.clear();
-      equilibrium.begin(equilibrium.options(measure));
+      equilibrium.begin(equilibrium.options());
       while (!equilibrium.is_balanced())
         {
           StaticProblem<dim> all = problem();
@@ -134,8 +134,6 @@ namespace
                                      return true;
                                    }))
             return false;
-          if (measure == StrainMeasure::large)
-            this->sort();
         }
       return true;
     }
@@ -167,10 +165,7 @@ namespace
     ShapeFunctionCache<dim> weights;
     InternalForces<dim>     internal_forces;
 
-    StepParts(Statics<dim>       &statics,
-              const StrainMeasure measure,
-              const double        mass_cutoff = 0.)
-      : internal_forces(measure)
+    StepParts(Statics<dim> &statics, const double mass_cutoff = 0.)
     {
       StaticProblem<dim> problem = statics.problem();
       sum_forces(problem);

@@ -49,20 +49,18 @@ namespace talus
                   unsigned int              end,
                   double                    dt) const override;
 
-    bool
+    void
     linearize(const Points<dim>        &points,
               const StepWorkspace<dim> &workspace,
               unsigned int              begin,
               unsigned int              end,
-              StrainMeasure             measure,
               StressTangent<dim>       *linearization) const override;
 
     void
     commit_load_step(Points<dim>              &points,
                      const StepWorkspace<dim> &workspace,
                      unsigned int              begin,
-                     unsigned int              end,
-                     StrainMeasure             measure) const override;
+                     unsigned int              end) const override;
 
     void
     wave_modulus(const Points<dim> &points,

@@ -130,12 +130,11 @@ namespace talus
 
 
   template <int dim, typename FlowRule>
-  bool
+  void
   RateLaw<dim, FlowRule>::linearize(const Points<dim>        &points,
                                     const StepWorkspace<dim> &workspace,
                                     const unsigned int        begin,
                                     const unsigned int        end,
-                                    const StrainMeasure       measure,
                                     StressTangent<dim> *linearization) const
   {
     using Number                 = Dual<dim * dim>;
@@ -145,31 +144,23 @@ namespace talus
     const auto     strength_at   = strength_of(points);
     for (unsigned int p = begin; p < end; ++p)
       {
-        const auto   H          = load_independent_gradient(work, p);
-        const Number dilatation = determinant_increment(H);
-        if (measure == StrainMeasure::large && !(dilatation.value > -1.))
-          return false;
-        const auto          strain   = strain_of_load_step(H, measure);
+        const auto strain =
+          small_strain_increment(load_independent_gradient(work, p));
         const auto          strength = strength_at(p, double());
         const auto          moduli   = moduli_of_point(moduli_of_law, strength);
         const auto          before   = load_stress<dim, double>(points, p);
         Stress<dim, Number> sigma;
         std::copy(before.begin(), before.end(), sigma.begin());
 
-        const auto   trial    = elastic_trial<dim>(sigma, strain, moduli);
-        const auto   flow     = rule(trial, softening(points, p), strength);
-        const Number removed  = flow.removed;
-        auto         deviator = trial.deviator_after;
-        for (Number &component : deviator)
+        const auto   trial   = elastic_trial<dim>(sigma, strain, moduli);
+        const auto   flow    = rule(trial, softening(points, p), strength);
+        const Number removed = flow.removed;
+        sigma                = trial.deviator_after;
+        for (Number &component : sigma)
           component *= 1. - removed;
-        sigma = add_mean(turn(strain.half_rotation, deviator),
-                         trial.mean_after - moduli.bulk * flow.dilation);
-        if (measure == StrainMeasure::large)
-          for (Number &component : sigma)
-            component *= 1. + dilatation;
-        store_nominal(sigma, H, measure, linearization[p - begin]);
+        linearization[p - begin] = stress_tangent<dim>(
+          add_mean(sigma, trial.mean_after - moduli.bulk * flow.dilation));
       }
-    return true;
   }
 
 
@@ -179,8 +170,7 @@ namespace talus
   RateLaw<dim, FlowRule>::commit_load_step(Points<dim>              &points,
                                            const StepWorkspace<dim> &workspace,
                                            const unsigned int        begin,
-                                           const unsigned int        end,
-                                           const StrainMeasure measure) const
+                                           const unsigned int        end) const
   {
     const RateLawStep<dim, FlowRule> step = {points.view(),
                                              workspace.view(begin, end),
@@ -192,17 +182,11 @@ namespace talus
     for (unsigned int p = begin; p < end; ++p)
       {
         RateLawTrial<dim, double> trial;
-        if (measure == StrainMeasure::large)
-          trial.motion =
-            advance_edges<dim, double>(step.points, step.workspace, p, 1.);
-        else
-          {
-            trial.motion.increment =
-              load_velocity_gradient<dim, double>(step.workspace, p);
-            trial.motion.volume_before = trial.motion.volume_after =
-              volume_of_points<dim, double>(points, p);
-          }
-        trial.strain = strain_of_load_step(trial.motion.increment, measure);
+        trial.motion.increment =
+          load_velocity_gradient<dim, double>(step.workspace, p);
+        trial.motion.volume_before = trial.motion.volume_after =
+          volume_of_points<dim, double>(points, p);
+        trial.strain = small_strain_increment(trial.motion.increment);
         set_trial_stress(step, p, trial);
         const auto flow =
           step.flow_rule(trial.stress, softening(points, p), trial.strength);

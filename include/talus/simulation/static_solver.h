@@ -6,7 +6,6 @@
 #include <talus/equilibrium/static_problem.h>
 #include <talus/io/log.h>
 #include <talus/problem/problem.h>
-#include <talus/simulation/background_mesh.h>
 #include <talus/simulation/newton_table.h>
 #include <talus/state/state.h>
 #include <talus/transfer/transfer.h>
@@ -26,7 +25,6 @@ namespace talus
     StaticSolver(State<dim>          &state,
                  Problem<dim>        &problem,
                  const Transfer<dim> &transfer,
-                 BackgroundMesh<dim> &mesh,
                  Log                 &log);
 
     /// Start newton.csv; in a resumed run continue the table.
@@ -85,11 +83,6 @@ namespace talus
     void
     restore(const Saved &saved);
 
-    /// Restore a state after points have moved, possibly to different ranks,
-    /// with changes of the mesh. Collective.
-    void
-    restore_and_relocate(const Saved &saved);
-
     /// Undo a stage, including newton.csv. @p saved is the state at
     /// begin_stage(). Collective.
     void
@@ -134,7 +127,6 @@ namespace talus
     State<dim>          &state_;
     Problem<dim>        &problem_;
     const Transfer<dim> &transfer_;
-    BackgroundMesh<dim> &mesh_;
     Log                 &log_;
     Equilibrium<dim>     equilibrium_;
     NewtonTable          table_;

@@ -22,7 +22,6 @@ namespace talus
     StaticStages(State<dim>          &state,
                  Problem<dim>        &problem,
                  const Transfer<dim> &transfer,
-                 BackgroundMesh<dim> &mesh,
                  const Output<dim>   &output,
                  Log                 &log);
 
@@ -96,8 +95,6 @@ namespace talus
     void
     find_equilibrium_with_more_strength(
       const typename StaticSolver<dim>::Saved &before);
-    StrainMeasure
-    measure_of_stronger_soil() const;
     void
     divide_strength(double factor);
     void

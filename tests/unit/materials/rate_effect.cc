@@ -352,8 +352,7 @@ namespace rate_effect_test
   load(Specimen<2> &soil)
   {
     soil.workspace.velocity_gradient(0, 1)[0] = 0.05;
-    soil.law->commit_load_step(
-      soil.points, soil.workspace, 0, 1, StrainMeasure::large);
+    soil.law->commit_load_step(soil.points, soil.workspace, 0, 1);
   }
 
   TEST(RateEffect, StaticStagesAreInfinitelySlow)
