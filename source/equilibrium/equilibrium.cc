@@ -173,9 +173,10 @@ namespace talus
   /// Nodes with very little soil follow their own forces more slowly the
   /// stiffer the stabilization is compared with their own stiffness. Hence the
   /// penalty decreases at full load. The lower bound of 1e-3 keeps nodes
-  /// without stiffness from making the matrix singular. Nodes inside obstacles have very little soil, but the
-  /// full pressure: held by their springs and the penalty, they follow only if
-  /// the penalty is close to zero, hence the lower bound of 1e-9.
+  /// without stiffness from making the matrix singular. Nodes inside obstacles
+  /// have very little soil, but the full pressure: held by their springs and
+  /// the penalty, they follow only if the penalty is close to zero, hence the
+  /// lower bound of 1e-9.
   template <int dim>
   StaticOptions
   Equilibrium<dim>::options_of_step(const bool has_obstacles) const

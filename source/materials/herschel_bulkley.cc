@@ -160,19 +160,6 @@ namespace talus
 
 
 
-  // Strength at rest, without viscosity.
-  template <int dim>
-  double
-  HerschelBulkley<dim>::shear_strength(const Points<dim> &points,
-                                       const unsigned int p) const
-  {
-    const double share = 1. - fraction_of_strength_loss(points, p);
-    return this->strength(points, p) * this->strength_factor(points, p) *
-           (remoulded_ratio_ + (1. - remoulded_ratio_) * share);
-  }
-
-
-
   template <int dim>
   bool
   HerschelBulkley<dim>::softens() const

@@ -115,34 +115,6 @@ namespace talus
 
 
 
-  // Yield stress over sqrt(3). Hardening is a slope of the yield stress and
-  // divided by sqrt(3), too. Softening by displacement ends at 1.
-  template <int dim>
-  double
-  VonMises<dim>::strength_without_factor(const Points<dim> &points,
-                                         const unsigned int p) const
-  {
-    const double initial = this->strength(points, p);
-    const double slope   = this->softens_by_displacement()
-                             ? residual_strength_ - initial
-                             : hardening_ / std::sqrt(3.);
-    const double on_line = initial + slope * this->softening(points, p);
-    return std::max(on_line, residual_strength_);
-  }
-
-
-
-  template <int dim>
-  double
-  VonMises<dim>::shear_strength(const Points<dim> &points,
-                                const unsigned int p) const
-  {
-    return this->strength_factor(points, p) *
-           strength_without_factor(points, p);
-  }
-
-
-
   template <int dim>
   bool
   VonMises<dim>::softens() const
@@ -153,16 +125,19 @@ namespace talus
 
 
   // Soil whose initial and residual strengths are equal has nothing to lose.
+  // Softening by displacement ends at 1. Hardening is a slope of the yield
+  // stress, sqrt(3) times the strength.
   template <int dim>
   double
   VonMises<dim>::fraction_of_strength_loss(const Points<dim> &points,
                                            const unsigned int p) const
   {
-    const double initial = this->strength(points, p);
-    return softens() && initial > residual_strength_
-             ? (initial - strength_without_factor(points, p)) /
-                 (initial - residual_strength_)
-             : 0.;
+    const double lost = this->strength(points, p) - residual_strength_;
+    if (!softens() || !(lost > 0.))
+      return 0.;
+    const double slope =
+      this->softens_by_displacement() ? 1. : -hardening_ / std::sqrt(3.) / lost;
+    return std::min(1., slope * this->softening(points, p));
   }
 
 

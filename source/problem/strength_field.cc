@@ -35,12 +35,51 @@ namespace talus
       StrengthField(const std::string           &path,
                     const UndrainedStrength     &strength,
                     const Constants             &constants,
-                    const std::filesystem::path &folder);
+                    const std::filesystem::path &folder)
+        : path_(path)
+        , number_(strength.number())
+      {
+        if (const std::string table = strength.table(); !table.empty())
+          table_ = strength_table(folder / table);
+        else if (!number_)
+          expression_ =
+            std::make_unique<Expression<dim>>(path,
+                                              strength.words(),
+                                              1,
+                                              constants,
+                                              dim == 2 ? "x,y,depth"
+                                                       : "x,y,z,depth");
+        if (strength.variation().is_active())
+          variation_.emplace(strength.variation());
+      }
 
       /// Return the strength at @p x, Pa. Throws ExcUser if it is not positive,
       /// unless the user gave the number 0.
       double
-      at(const Point<dim> &x, const Mudline<dim> &mudline);
+      at(const Point<dim> &x, const Mudline<dim> &mudline)
+      {
+        const double depth    = number_ ? 0. : mudline.depth(x);
+        double       strength = 0.;
+        if (number_)
+          strength = *number_;
+        else if (table_)
+          strength = table_->value(0, depth);
+        else
+          strength = expression_->finite_value(x, depth, 0);
+        if (variation_)
+          strength *= (*variation_)(x);
+        AssertThrow(strength > 0. || (number_ && strength == 0.),
+                    ExcUser(text(path_,
+                                 " is ",
+                                 strength,
+                                 " Pa at (",
+                                 x,
+                                 ") m, ",
+                                 mudline.depth(x),
+                                 " m below the mudline. Soil needs a positive "
+                                 "strength: change it.")));
+        return strength;
+      }
 
     private:
       std::string                      path_;
@@ -49,54 +88,6 @@ namespace talus
       std::unique_ptr<Expression<dim>> expression_;
       std::optional<RandomField<dim>>  variation_;
     };
-
-
-
-    template <int dim>
-    StrengthField<dim>::StrengthField(const std::string           &path,
-                                      const UndrainedStrength     &strength,
-                                      const Constants             &constants,
-                                      const std::filesystem::path &folder)
-      : path_(path)
-      , number_(strength.number())
-    {
-      if (const std::string table = strength.table(); !table.empty())
-        table_ = strength_table(folder / table);
-      else if (!number_)
-        expression_ =
-          std::make_unique<Expression<dim>>(path,
-                                            strength.words(),
-                                            1,
-                                            constants,
-                                            dim == 2 ? "x,y,depth"
-                                                     : "x,y,z,depth");
-      if (strength.variation().is_active())
-        variation_.emplace(strength.variation());
-    }
-
-
-
-    template <int dim>
-    double
-    StrengthField<dim>::at(const Point<dim> &x, const Mudline<dim> &mudline)
-    {
-      const double depth    = number_ ? 0. : mudline.depth(x);
-      const double mean     = (number_  ? *number_
-                               : table_ ? table_->value(0, depth)
-                                        : expression_->finite_value(x, depth, 0));
-      const double strength = variation_ ? mean * (*variation_)(x) : mean;
-      AssertThrow(strength > 0. || (number_ && strength == 0.),
-                  ExcUser(text(path_,
-                               " is ",
-                               strength,
-                               " Pa at (",
-                               x,
-                               ") m, ",
-                               mudline.depth(x),
-                               " m below the mudline. Soil needs a positive "
-                               "strength: change it.")));
-      return strength;
-    }
   } // namespace
 
 

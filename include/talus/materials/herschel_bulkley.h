@@ -42,9 +42,6 @@ namespace talus
     double
     largest_strength_factor(const StrengthRange &range) const override;
 
-    double
-    shear_strength(const Points<dim> &points, unsigned int p) const override;
-
     bool
     softens() const override;
 

@@ -12,8 +12,9 @@ namespace talus
   /// with the undrained shear strength of each point, a column. With a
   /// stiffness ratio the moduli of the law belong to a strength of 1 Pa. With a
   /// softening displacement the softening of the flow rule is the column
-  /// "softening", 1 at that displacement. With a rate coefficient the rule is
-  /// applied as RateDependentFlow<FlowRule>. The functions are in
+  /// "softening", 1 at that displacement. The rule has a function curve(), see
+  /// VonMisesFlow. With a rate coefficient the rule is applied as
+  /// RateDependentFlow<FlowRule>. The functions are in
   /// undrained_law.templates.h, to be included by the .cc file of a law.
   template <int dim, typename FlowRule>
   class UndrainedLaw : public RateLaw<dim, FlowRule>
@@ -34,6 +35,9 @@ namespace talus
     /// or if soil would soften faster than it can unload elastically.
     void
     check_strength(const StrengthRange &range) const override;
+
+    double
+    shear_strength(const Points<dim> &points, unsigned int p) const override;
 
     void
     add_columns(Points<dim> &points) override;

@@ -208,6 +208,20 @@ namespace talus
 
 
 
+  template <int dim, typename FlowRule>
+  double
+  UndrainedLaw<dim, FlowRule>::shear_strength(const Points<dim> &points,
+                                              const unsigned int p) const
+  {
+    return this->flow_rule(infinitely_slow)
+             .curve(this->softening(points, p),
+                    strength_of(points)(p, double()))
+             .strength /
+           shear_per_plastic_variable();
+  }
+
+
+
   // A flow rule of its own, so that soil without rate effect does not pay.
   template <int dim, typename FlowRule>
   void

@@ -32,9 +32,6 @@ namespace talus
     double
     largest_strength_factor(const StrengthRange &range) const override;
 
-    double
-    shear_strength(const Points<dim> &points, unsigned int p) const override;
-
     bool
     softens() const override;
 
@@ -54,9 +51,6 @@ namespace talus
 
     VonMisesFlow
     flow_rule(double dt) const override;
-
-    double
-    strength_without_factor(const Points<dim> &points, unsigned int p) const;
 
     double hardening_         = 0.;
     double residual_strength_ = 0.;
