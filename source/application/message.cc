@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <iomanip>
+#include <map>
 #include <new>
 #include <regex>
 #include <sstream>
@@ -113,6 +114,24 @@ namespace talus
 
 
 
+    /// Return what replaces a parameter of former versions; otherwise empty.
+    std::string
+    replacement(const std::string &name)
+    {
+      static const std::map<std::string, std::string> replacements = {
+        {"Format",
+         " Points, grid and obstacles are VTU files without a choice: remove "
+         "Output/Format."},
+        {"Strain",
+         " Static stages always use small strain: remove the line. A body at "
+         "large strain comes to rest in the stage 'dynamics', with "
+         "'Gravity/Ramp time' and 'Damping/Local damping'."}};
+      const auto found = replacements.find(name);
+      return found == replacements.end() ? "" : found->second;
+    }
+
+
+
     /// Rewrite an @p error of the parameter parser as a sentence that begins
     /// with @p place and says what to do. Unknown messages, for example of a
     /// new version of deal.II, pass unchanged.
@@ -138,10 +157,9 @@ namespace talus
       if (std::regex_match(error, part, unknown_entry))
         return place + "there is no parameter '" + part[1].str() +
                "' in this section." +
-               (part[1] == "Format" ? " Points, grid and obstacles are VTU "
-                                      "files without a choice: remove "
-                                      "Output/Format."
-                                    : similar(part[1], "set ") + listed);
+               (replacement(part[1]).empty() ?
+                  similar(part[1], "set ") + listed :
+                  replacement(part[1]));
       if (std::regex_match(error, part, unknown_section))
         return place + "there is no section '" + part[1].str() + "' here." +
                similar(part[1], "subsection ") + listed;

@@ -20,9 +20,9 @@ namespace talus
       type_,
       "Solver of the linear systems of the static stages: 'direct' "
       "(Trilinos' Amesos), 'CG' or 'GMRES' with algebraic multigrid "
-      "(Trilinos' ML). CG requires symmetric matrices, as at small strain. "
-      "'auto': direct up to 100 000 unknowns in 2-D and 10 000 in 3-D, "
-      "otherwise CG at small and GMRES at large strain.",
+      "(Trilinos' ML). CG requires symmetric matrices. 'auto': direct up to "
+      "100 000 unknowns in 2-D and 10 000 in 3-D, otherwise CG, and GMRES "
+      "where friction makes the matrix unsymmetric.",
       this->prm,
       Patterns::Selection("auto|direct|CG|GMRES"));
     add_parameter("Tolerance",
@@ -45,7 +45,7 @@ namespace talus
   /// factors is small. Fill-in grows much faster with the number of unknowns in
   /// 3-D than in 2-D, hence two limits. Beyond the limits, the iterations of
   /// multigrid hardly grow with the mesh (doc/performance.md, "Multigrid"). CG
-  /// requires a symmetric matrix, and the tangent at large strain may be
+  /// requires a symmetric matrix, and friction at contacts may make it
   /// unsymmetric.
   std::string
   LinearSolver::choice(const unsigned long n_unknowns,

@@ -486,13 +486,12 @@ namespace talus
 
 
 
-  /// At small strain points do not move, so the motion of the soil towards the
-  /// obstacle must be remembered.
+  /// Points do not move, so the motion of the soil towards the obstacle must be
+  /// remembered.
   template <int dim>
   void
   StaticContact<dim>::commit(const StaticProblem<dim>  &problem,
-                             const std::vector<double> &u,
-                             const StrainMeasure        measure)
+                             const std::vector<double> &u)
   {
     const auto        &constraints = problem.contact.constraints();
     const unsigned int n_facets    = constraints.place_of_node(0);
@@ -502,8 +501,7 @@ namespace talus
         const double moved = place.displacement(u) * place.normal;
         const double N     = place.force * place.normal;
         place.given        = place.force;
-        place.opened =
-          (measure == StrainMeasure::small ? place.opened + moved : 0.);
+        place.opened += moved;
         if (place.slip > 0)
           problem.contact.slip().add(place.number, place.slip);
         if (const unsigned int k = forces.size(); k < n_facets)

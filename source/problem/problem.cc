@@ -248,18 +248,6 @@ namespace talus
 
 
   template <int dim>
-  bool
-  Problem<dim>::has_hyperelastic_body() const
-  {
-    for (unsigned int b = 0; b < bodies_.size(); ++b)
-      if (materials.of_body(b).is_hyperelastic())
-        return true;
-    return false;
-  }
-
-
-
-  template <int dim>
   std::vector<std::string>
   Problem<dim>::facts() const
   {

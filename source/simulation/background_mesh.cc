@@ -345,24 +345,6 @@ namespace talus
 
 
 
-  /// In a load step with large strain points may move beyond neighbouring
-  /// cells. Each point is therefore searched for, and may go to any rank.
-  /// Collective.
-  template <int dim>
-  void
-  BackgroundMesh<dim>::relocate_all()
-  {
-    if (Utilities::MPI::n_mpi_processes(state_.communicator()) > 1)
-      {
-        state_.points.forget_order();
-        send_points_to_owners(state_.points, state_.grid);
-      }
-    if (relocation_.update(state_.points, state_.grid))
-      state_.nodes.activate(state_.grid, relocation_.occupied_cells());
-  }
-
-
-
   /// Before the first repartition all cells have weight 1.
   template <int dim>
   std::vector<double>

@@ -39,7 +39,7 @@ namespace talus
     , mesh_(state_, problem_, transfer_, timer_)
     , scheme_(state_, problem_, transfer_, mesh_, timer_)
     , output_(timer_, log_, &problem_.obstacles)
-    , static_stages_(state_, problem_, transfer_, mesh_, output_, log_)
+    , static_stages_(state_, problem_, transfer_, output_, log_)
   {
     add_parameter("Title", title_, "One line about the case.");
     add_parameter("Dimension",

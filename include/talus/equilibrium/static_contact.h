@@ -221,9 +221,7 @@ namespace talus
     /// Store the solution with the displacements @p u, m: the slip at the
     /// places of seabed and obstacles, and the forces of the facets.
     void
-    commit(const StaticProblem<dim>  &problem,
-           const std::vector<double> &u,
-           StrainMeasure              measure);
+    commit(const StaticProblem<dim> &problem, const std::vector<double> &u);
 
     /// Add the table of the places to the state. Without @p is_needed the table
     /// is empty.

@@ -35,12 +35,10 @@ namespace talus
   /// parameters of section Equilibrium; strength reduction changes them.
   struct StaticOptions
   {
-    StrainMeasure measure       = StrainMeasure::small;
-    unsigned int  n_load_steps  = 1;      ///< number of equal load steps
-    double        smallest_step = 1e-3;   ///< smallest fraction of the load [-]
-    double        allowed_imbalance = 0.; ///< limit for soil in balance [-]
-    /// Whether to subtract the error of the weight (WellBalancedLoad); ignored
-    /// at large strain.
+    unsigned int n_load_steps  = 1;    ///< number of equal load steps
+    double       smallest_step = 1e-3; ///< smallest fraction of the load [-]
+    double       allowed_imbalance = 1e-6; ///< limit for soil in balance [-]
+    /// Whether to subtract the error of the weight (WellBalancedLoad).
     bool is_well_balanced = true;
     /// Number of load steps that may fail and be cut [-].
     unsigned int max_failures = -1;

@@ -2,115 +2,80 @@
 #ifndef talus_materials_point_strength_kernel_h
 #define talus_materials_point_strength_kernel_h
 
-#include <talus/base/always_inline.h>
+#include <talus/base/simd.h>
 #include <talus/materials/moduli.h>
-
-#include <type_traits>
 
 namespace talus
 {
-  /// Strength factor for soil whose strength differs from point to point. Flow
-  /// rules and moduli then belong to material with a strength of 1 Pa.
+  /// Strength and stiffness of soil at one point, or of several points at once.
   template <typename Number>
   struct PointStrength
   {
-    Number factor;    ///< strength factor [-]
-    Number strength;  ///< point strength over flow-rule strength [-]
-    Number stiffness; ///< moduli of the point over the moduli of the law [-]
+    Number undisturbed; ///< undrained shear strength times `factor`, Pa
+    Number factor;      ///< strength factor [-]
+    Number stiffness;   ///< moduli of the point over the moduli of the law [-]
+    Number compliance;  ///< inverse of `stiffness` [-]
+    Number softening;   ///< softening per plastic variable [-]
   };
 
-  /// PointStrength of soil that softens with the displacement across a shear
-  /// band. The flow rule then takes the softening column in place of the
-  /// plastic variable.
-  template <typename Number>
-  struct BandStrength : PointStrength<Number>
+
+
+  /// Values at the points: a column, or one number for all points.
+  struct ColumnOrNumber
   {
-    Number rate; ///< softening per plastic variable [-]
+    const double *column = nullptr;
+    double        number = 1.;
+
+    template <typename Number>
+    TALUS_ALWAYS_INLINE Number
+    at(const unsigned int p) const
+    {
+      return column == nullptr ? Number(number) : load<Number>(column + p);
+    }
   };
 
-  template <typename T>
-  struct IsPointStrength : std::false_type
-  {};
 
+
+  /// Function strength(p, number) for the PointStrength of point(s) p.
+  struct StrengthOfPoints
+  {
+    ColumnOrNumber strength = {nullptr, 0.}; ///< undrained shear strength, Pa;
+                                             ///< 0 if the law has none
+    ColumnOrNumber factor         = {};      ///< strength factor [-]
+    ColumnOrNumber stiffness      = {};      ///< as in PointStrength
+    ColumnOrNumber cell_size      = {};      ///< m; 1 if not used
+    double         softening_rate = 1.; ///< softening over plastic variable and
+                                        ///< cell size, 1/m
+    /// Column of the softening [-], on which the strength depends: the plastic
+    /// variable, or the displacement across a shear band as wide as the cell
+    /// over the softening displacement. Invalid in elastic laws.
+    unsigned int softening_column = -1;
+
+    template <typename Number>
+    TALUS_ALWAYS_INLINE PointStrength<Number>
+    operator()(const unsigned int p, const Number & /*number*/) const
+    {
+      const Number share = factor.at<Number>(p);
+      // A division only where points differ.
+      const Number ratio = stiffness.at<Number>(p);
+      return {share * strength.at<Number>(p),
+              share,
+              ratio,
+              stiffness.column == nullptr ? ratio : Number(1. / ratio),
+              softening_rate * cell_size.at<Number>(p)};
+    }
+  };
+
+
+
+  /// Moduli of the point(s), Pa, from the @p moduli of the law.
   template <typename Number>
-  struct IsPointStrength<PointStrength<Number>> : std::true_type
-  {};
-
-  template <typename Number>
-  struct IsPointStrength<BandStrength<Number>> : std::true_type
-  {};
-
-  template <typename T>
-  constexpr bool is_band_strength = false;
-
-  template <typename Number>
-  constexpr bool is_band_strength<BandStrength<Number>> = true;
-
-
-
-  /// Multiplier of the strength in the flow rule [-]; @p factor is given by
-  /// with_strength_factor() or with_point_strength().
-  template <typename Factor>
-  TALUS_ALWAYS_INLINE auto
-  share_of_strength(const Factor &factor)
+  TALUS_ALWAYS_INLINE ModuliOf<Number>
+  moduli_of_point(const Moduli &moduli, const PointStrength<Number> &strength)
   {
-    if constexpr (IsPointStrength<Factor>::value)
-      return factor.factor * factor.strength;
-    else
-      return factor;
-  }
-
-
-
-  /// Multiplier [-] of further strengths given by one number in Pa, such as the
-  /// residual strength.
-  template <typename Factor>
-  TALUS_ALWAYS_INLINE auto
-  share_of_given_strength(const Factor &factor)
-  {
-    if constexpr (IsPointStrength<Factor>::value)
-      return factor.factor;
-    else
-      return factor;
-  }
-
-
-
-  /// Slope per plastic variable of a quantity with the slope @p slope per
-  /// softening.
-  template <typename Slope, typename Factor>
-  TALUS_ALWAYS_INLINE auto
-  slope_of_point(const Slope &slope, [[maybe_unused]] const Factor &factor)
-  {
-    if constexpr (is_band_strength<Factor>)
-      return slope * factor.rate;
-    else
-      return slope;
-  }
-
-
-
-  /// Modulus of a point, Pa.
-  template <typename Factor>
-  TALUS_ALWAYS_INLINE auto
-  modulus_of_point(const double modulus, [[maybe_unused]] const Factor &factor)
-  {
-    if constexpr (IsPointStrength<Factor>::value)
-      return modulus * factor.stiffness;
-    else
-      return modulus;
-  }
-
-
-
-  template <typename Factor>
-  TALUS_ALWAYS_INLINE auto
-  moduli_of_point(const Moduli &moduli, const Factor &factor)
-  {
-    using Number = decltype(modulus_of_point(moduli.mu, factor));
-    return ModuliOf<Number>{modulus_of_point(moduli.lambda, factor),
-                            modulus_of_point(moduli.mu, factor),
-                            modulus_of_point(moduli.bulk, factor)};
+    return {moduli.lambda * strength.stiffness,
+            moduli.mu * strength.stiffness,
+            moduli.bulk * strength.stiffness};
   }
 } // namespace talus
 

@@ -44,11 +44,11 @@ namespace talus
   /// Flow rule of elastic material.
   struct NoFlow
   {
-    template <int dim, typename Number, typename Factor>
+    template <int dim, typename Number, typename Strength>
     Flow<Number>
     operator()(const StressStep<dim, Number> & /*trial*/,
-               double /*plastic*/,
-               const Factor & /*strength_factor*/) const
+               const Strength & /*softening*/,
+               const PointStrength<Strength> & /*strength*/) const
     {
       return {Number(0.), Number(0.)};
     }
@@ -66,77 +66,81 @@ namespace talus
     double             dt;        ///< s
     Moduli             moduli;    ///< elastic constants of the law, Pa
     FlowRule           flow_rule;
-    /// Column of the softening; used only with BandStrength.
-    unsigned int softening = 0;
+    StrengthOfPoints   strength;
   };
 
 
 
-  /// Variable of the flow rule at point(s) @p p: under a BandStrength the value
-  /// in the column @p softening, otherwise the plastic variable @p plastic.
-  template <typename Factor, int dim, typename Number>
+  /// Softening of point(s) @p p at the start of the step [-].
+  template <typename Number, int dim, typename FlowRule>
   TALUS_ALWAYS_INLINE Number
-  softening_variable([[maybe_unused]] const PointsView<dim> &points,
-                     [[maybe_unused]] const unsigned int     softening,
-                     [[maybe_unused]] const unsigned int     p,
-                     const Number                           &plastic)
+  softening(const RateLawStep<dim, FlowRule> &step, const unsigned int p)
   {
-    if constexpr (is_band_strength<Factor>)
-      return load<Number>(points.data(softening) + p);
-    else
-      return plastic;
+    return load<Number>(step.points.data(step.strength.softening_column) + p);
   }
 
 
 
-  /// Add the softening by an increment of the plastic variable.
-  template <int dim, typename Number, typename Factor>
+  /// Add the @p increment of a step to the plastic variable of point(s) @p p
+  /// and to their softening, which may be the same column.
+  template <int dim, typename Number, typename FlowRule>
   TALUS_ALWAYS_INLINE void
-  soften([[maybe_unused]] const PointsView<dim> &points,
-         [[maybe_unused]] const unsigned int     softening,
-         [[maybe_unused]] const unsigned int     p,
-         [[maybe_unused]] const Number          &increment,
-         [[maybe_unused]] const Factor          &factor)
+  soften(const RateLawStep<dim, FlowRule> &step,
+         const unsigned int                p,
+         const Number                     &increment,
+         const PointStrength<Number>      &strength)
   {
-    if constexpr (is_band_strength<Factor>)
-      {
-        double *const column = points.data(softening) + p;
-        store(column, load<Number>(column) + slope_of_point(increment, factor));
-      }
+    double *const plastic = step.points.data(step.plastic) + p;
+    store(plastic, load<Number>(plastic) + increment);
+    if (step.strength.softening_column != step.plastic)
+      store(step.points.data(step.strength.softening_column) + p,
+            softening<Number>(step, p) + strength.softening * increment);
   }
 
 
 
   /// Motion, strain and stress of point(s) in a step without plastic flow.
-  template <int dim, typename Number, typename Modulus>
+  template <int dim, typename Number>
   struct RateLawTrial
   {
     Motion<dim, Number>          motion;
     StrainIncrement<dim, Number> strain;
-    ModuliOf<Modulus>            moduli; ///< elastic constants, Pa
+    PointStrength<Number>        strength;
+    ModuliOf<Number>             moduli;     ///< elastic constants, Pa
+    Number                       compliance; ///< inverse of moduli.mu, 1/Pa
     StressStep<dim, Number>      stress;
   };
 
 
 
-  /// Advance the edges of point(s) @p p and compute the trial stress. @p factor
-  /// is the strength factor of the point(s).
-  template <int dim, typename Number, typename FlowRule, typename Factor>
-  TALUS_ALWAYS_INLINE auto
-  rate_law_trial(const RateLawStep<dim, FlowRule> &step,
-                 const unsigned int                p,
-                 const Factor                     &factor)
+  /// Compute the trial stress of point(s) @p p from motion and strain.
+  template <int dim, typename Number, typename FlowRule>
+  TALUS_ALWAYS_INLINE void
+  set_trial_stress(const RateLawStep<dim, FlowRule> &step,
+                   const unsigned int                p,
+                   RateLawTrial<dim, Number>        &trial)
   {
-    RateLawTrial<dim, Number, decltype(modulus_of_point(double(), factor))>
-      trial;
-    trial.motion =
-      advance_edges<dim, Number>(step.points, step.workspace, p, step.dt);
-    trial.strain = strain_increment(trial.motion);
-    trial.moduli = moduli_of_point(step.moduli, factor);
+    trial.strength   = step.strength(p, Number());
+    trial.moduli     = moduli_of_point(step.moduli, trial.strength);
+    trial.compliance = 1. / step.moduli.mu * trial.strength.compliance;
     trial.stress =
       elastic_trial<dim, Number>(load_stress<dim, Number>(step.points, p),
                                  trial.strain,
                                  trial.moduli);
+  }
+
+
+
+  /// Advance the edges of point(s) @p p and compute the trial stress.
+  template <int dim, typename Number, typename FlowRule>
+  TALUS_ALWAYS_INLINE RateLawTrial<dim, Number>
+  rate_law_trial(const RateLawStep<dim, FlowRule> &step, const unsigned int p)
+  {
+    RateLawTrial<dim, Number> trial;
+    trial.motion =
+      advance_edges<dim, Number>(step.points, step.workspace, p, step.dt);
+    trial.strain = strain_increment(trial.motion);
+    set_trial_stress(step, p, trial);
     return trial;
   }
 
@@ -144,13 +148,13 @@ namespace talus
 
   /// Complete an elastic step of point(s) @p p: store the stress and record the
   /// work as elastic energy.
-  template <int dim, typename Number, typename Modulus>
+  template <int dim, typename Number>
   TALUS_ALWAYS_INLINE void
-  keep_elastic(const PointsView<dim>                    &points,
-               const unsigned int                        p,
-               const RateLawTrial<dim, Number, Modulus> &trial)
+  keep_elastic(const PointsView<dim>           &points,
+               const unsigned int               p,
+               const RateLawTrial<dim, Number> &trial)
   {
-    const auto &[motion, strain, moduli, stress] = trial;
+    const auto &[motion, strain, strength, moduli, compliance, stress] = trial;
     store_turned_stress<dim, Number>(points, p, strain, stress);
 
     const auto    force  = deviatoric_force<dim, Number>(motion, stress);
@@ -165,10 +169,10 @@ namespace talus
   /// Return the stress of a step with plastic flow. The flow removes a fraction
   /// of the trial deviator, 2 mu times the plastic strain, and the bulk modulus
   /// times the dilation from the mean.
-  template <int dim, typename Number, typename Modulus, typename Dilation>
+  template <int dim, typename Number, typename Dilation>
   TALUS_ALWAYS_INLINE StressStep<dim, Number>
                       returned(StressStep<dim, Number>       stress,
-                               const Modulus                &bulk,
+                               const Number                 &bulk,
                                const Flow<Number, Dilation> &flow)
   {
     for (Number &component : stress.deviator_after)
@@ -181,19 +185,20 @@ namespace talus
 
   /// Complete a plastic step of point(s) @p p: store the returned stress and
   /// record the work of the step as plastic and elastic.
-  template <int dim, typename Number, typename Modulus, typename Dilation>
+  template <int dim, typename Number, typename Dilation>
   TALUS_ALWAYS_INLINE void
-  flow_plastically(const PointsView<dim>                    &points,
-                   const unsigned int                        p,
-                   const RateLawTrial<dim, Number, Modulus> &trial,
-                   const Flow<Number, Dilation>             &flow)
+  flow_plastically(const PointsView<dim>           &points,
+                   const unsigned int               p,
+                   const RateLawTrial<dim, Number> &trial,
+                   const Flow<Number, Dilation>    &flow)
   {
-    const auto &[motion, strain, moduli, trial_stress] = trial;
+    const auto &[motion, strain, strength, moduli, compliance, trial_stress] =
+      trial;
     const auto stress = returned(trial_stress, moduli.bulk, flow);
     store_turned_stress<dim, Number>(points, p, strain, stress);
 
     const auto force        = deviatoric_force<dim, Number>(motion, stress);
-    Number     plastic_work = flow.removed * (0.5 / moduli.mu) *
+    Number     plastic_work = flow.removed * (0.5 * compliance) *
                           contract(force, trial_stress.deviator_after);
     if constexpr (std::is_same_v<Number, Dilation>)
       plastic_work += volumetric_work(motion, stress, flow.dilation);
@@ -221,33 +226,21 @@ namespace talus
 
   /// Advance the points from @p p on, in @p n registers, by one step of a law
   /// in rate form. Returns false if a point is inverted or its flow not found.
-  /// @p factor is a function as in with_point_strength().
-  template <int dim,
-            typename Number,
-            unsigned int n,
-            typename FlowRule,
-            typename Factor>
+  template <int dim, typename Number, unsigned int n, typename FlowRule>
   TALUS_ALWAYS_INLINE bool
   update_rate_law_points(const RateLawStep<dim, FlowRule> &step,
-                         const unsigned int                p,
-                         const Factor                     &factor)
+                         const unsigned int                p)
   {
     static_assert(n == 1);
-    const auto factor_here = factor(p, Number());
-    const auto trial       = rate_law_trial<dim, Number>(step, p, factor_here);
+    const auto trial = rate_law_trial<dim, Number>(step, p);
     if constexpr (std::is_same_v<FlowRule, NoFlow>)
       keep_elastic(step.points, p, trial);
     else
       {
-        double *const variable = step.points.data(step.plastic) + p;
-        const Number  before   = load<Number>(variable);
-        const auto    flow     = step.flow_rule(
-          trial.stress,
-          softening_variable<std::decay_t<decltype(factor_here)>>(
-            step.points, step.softening, p, before),
-          factor_here);
-        store(variable, before + flow.increment);
-        soften(step.points, step.softening, p, flow.increment, factor_here);
+        const auto flow = step.flow_rule(trial.stress,
+                                         softening<Number>(step, p),
+                                         trial.strength);
+        soften(step, p, flow.increment, trial.strength);
         flow_plastically(step.points, p, trial, flow);
         if constexpr (is_iterative<FlowRule>)
           if (!all(flow.increment >= 0.))

@@ -86,10 +86,6 @@ namespace talus
     std::vector<bool>
     bodies_with_bbar() const;
 
-    /// Return whether a body is made of a hyperelastic law.
-    bool
-    has_hyperelastic_body() const;
-
     /// Return whether soil can slide on a surface: a seabed face, or an
     /// obstacle.
     bool

@@ -63,11 +63,6 @@ namespace talus
     void
     relocate();
 
-    /// Sort all points after large motion, possibly beyond neighbouring cells.
-    /// Collective.
-    void
-    relocate_all();
-
     /// Weights of the owned cells at the last repartition [-].
     std::vector<double>
     cell_weights() const;

@@ -29,7 +29,7 @@ namespace
       gravity[0] = 2.;
       gravity[1] = -9.81;
       this->load(gravity);
-      parts.emplace(*this, StrainMeasure::small, this->constants.mass_cutoff);
+      parts.emplace(*this, this->constants.mass_cutoff);
       auto                      &unknowns = parts->unknowns;
       std::vector<unsigned char> held(this->grid.n_owned_nodes(), 0);
       for (const unsigned int node : unknowns.active_nodes())
