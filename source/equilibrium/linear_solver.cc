@@ -21,7 +21,7 @@ namespace talus
       "Solver of the linear systems of the static stages: 'direct' "
       "(Trilinos' Amesos), 'CG' or 'GMRES' with algebraic multigrid "
       "(Trilinos' ML). CG requires symmetric matrices. 'auto': direct up to "
-      "100 000 unknowns in 2-D and 10 000 in 3-D, otherwise CG, and GMRES "
+      "100 000 unknowns in 2-D and 300 000 in 3-D, otherwise CG, and GMRES "
       "where friction makes the matrix unsymmetric.",
       this->prm,
       Patterns::Selection("auto|direct|CG|GMRES"));
@@ -54,7 +54,7 @@ namespace talus
   {
     if (type_ != "auto")
       return type_;
-    if (n_unknowns <= (dim == 2 ? 100000 : 10000))
+    if (n_unknowns <= (dim == 2 ? 100000 : 300000))
       return "direct";
     return symmetric ? "CG" : "GMRES";
   }
@@ -110,7 +110,7 @@ namespace talus
     x                        = 0.;
     if (type == "direct")
       return {0,
-              system.factorization.solve(matrix, x, rhs)
+              system.factorization.solve(matrix, x, rhs, system.symmetric)
                 ? ""
                 : "the matrix is singular"};
 

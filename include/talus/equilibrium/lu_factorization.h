@@ -9,26 +9,29 @@
 
 namespace talus
 {
-  /// Sparse LU factorization by Trilinos' Amesos (KLU @cite davis2010). The
-  /// matrices of Newton's method differ in their values only: the ordering of
-  /// the unknowns is computed once per pattern, and the pivots of the previous
-  /// matrix are tried first.
+  /// Sparse LU factorization by Trilinos' Amesos: KLU @cite davis2010 in 2-D,
+  /// MUMPS @cite amestoy2001 in 3-D. The matrices of Newton's method differ in
+  /// their values only: the ordering of the unknowns is computed once per
+  /// pattern, and KLU tries the pivots of the previous matrix first.
   class LuFactorization
   {
   public:
-    LuFactorization();
+    /// @p dim of the space.
+    explicit LuFactorization(unsigned int dim);
     ~LuFactorization();
 
     /// Forget the previous matrix. Call after each change of the pattern.
     void
     clear();
 
-    /// Factorize @p matrix and solve matrix * @p x = @p rhs. Returns false if
-    /// the matrix is singular; @p x is then undefined. Collective.
+    /// Factorize @p matrix and solve matrix * @p x = @p rhs. MUMPS factorises a
+    /// matrix that @p is_symmetric in half of the time and memory. Returns
+    /// false if the matrix is singular; @p x is then undefined. Collective.
     bool
     solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
           dealii::TrilinosWrappers::MPI::Vector        &x,
-          const dealii::TrilinosWrappers::MPI::Vector  &rhs);
+          const dealii::TrilinosWrappers::MPI::Vector  &rhs,
+          bool                                          is_symmetric);
 
   private:
     class Amesos;
@@ -39,6 +42,7 @@ namespace talus
                       bool                                          old_pivots);
 
     std::unique_ptr<Amesos> amesos_;
+    bool                    with_mumps_;
   };
 } // namespace talus
 

@@ -182,7 +182,7 @@ namespace talus
     bool                    is_well_balanced_ = false;
 
     StiffnessMatrix<dim>            matrix_;
-    LuFactorization                 factorization_;
+    LuFactorization                 factorization_{dim};
     std::vector<dealii::Point<dim>> places_; ///< places of the owned nodes, m
     dealii::Point<dim>              centre_; ///< centre of rigid rotations, m
 

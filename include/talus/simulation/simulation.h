@@ -184,6 +184,8 @@ namespace talus
 
   private:
     void
+    add_observers();
+    void
     prepare();
     void
     create_points();

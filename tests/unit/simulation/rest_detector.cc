@@ -13,12 +13,14 @@ namespace rest_test
   /// Soil that has slid by @p way, m, in cells of 1 m; looks every half second.
   struct Slide : Core<2>
   {
-    explicit Slide(const double way, const bool has_soil = true)
+    explicit Slide(const double       way,
+                   const bool         has_soil   = true,
+                   const std::string &parameters = "")
       : Core<2>(slab<2>())
     {
       dealii::ParameterAcceptor::declare_all_parameters();
       dealii::ParameterAcceptor::prm.parse_input_from_string(
-        in_section("Rest", "set Duration = 5"));
+        in_section("Rest", "set Duration = 5\n" + parameters));
       dealii::ParameterAcceptor::parse_all_parameters();
       // The first point is ahead of all others.
       unsigned int n = 0;
@@ -102,6 +104,21 @@ TEST(RestDetector, FiveSecondsOfLittleEnergy)
   EXPECT_EQ(slide.time_of_rest(
               [](const double t) { return t == 4. ? 0.5 : 0.01; }),
             9.5);
+}
+
+
+
+// Soil that moves with 1e-4 of the largest energy is at rest for a ratio of
+// 2e-4, not for 5e-5.
+TEST(RestDetector, RatioOfTheUser)
+{
+  using namespace rest_test;
+  const auto time = [](const std::string &ratio) {
+    return Slide(2., true, "set Kinetic energy ratio = " + ratio)
+      .time_of_rest(slow);
+  };
+  EXPECT_EQ(time("2e-4"), 5.5);
+  EXPECT_EQ(time("5e-5"), never);
 }
 
 
