@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/contact/obstacle_remarks.h>
-#include <talus/contact/obstacle_sizes.h>
 #include <talus/problem/bottom_of_mesh.h>
 #include <talus/problem/geostatic.h>
 #include <talus/problem/layer_ends.h>

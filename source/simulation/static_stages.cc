@@ -3,7 +3,7 @@
 #include <talus/base/errors.h>
 #include <talus/base/interrupt.h>
 #include <talus/simulation/static_stages.h>
-#include <talus/simulation/yielded_extent.h>
+#include <talus/simulation/shear_bands.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -290,10 +290,6 @@ namespace talus
 
   template Transfer<2>::Transfer();
   template Transfer<3>::Transfer();
-  template void
-  Transfer<2>::check() const;
-  template void
-  Transfer<3>::check() const;
   template double
   Transfer<2>::mass_cutoff(double, double) const;
   template double

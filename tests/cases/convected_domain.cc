@@ -8,7 +8,7 @@
 #include "verification.h"
 
 #include <talus/base/errors.h>
-#include <talus/observers/energy_budget.h>
+#include <talus/observers/statistics.h>
 #include <talus/observers/fracture.h>
 #include <talus/points/points_kernel.h>
 

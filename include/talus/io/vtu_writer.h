@@ -6,11 +6,29 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <ostream>
+#include <vector>
 
 namespace talus
 {
+  /// Write @p n bytes as base64 (RFC 4648), padded with '='.
+  void
+  write_base64(std::ostream &out, const unsigned char *bytes, std::size_t n);
+
+
+
+  /// Write the content of a DataArray of VTK's XML files with format="binary"
+  /// and compressor="vtkZLibDataCompressor": base64 of the four numbers 1,
+  /// size, size and compressed size [bytes], followed by base64 of the
+  /// compressed values.
+  template <typename Number>
+  void
+  write_vtu_array(std::ostream &out, const std::vector<Number> &values);
+
+
+
   /// Write the cells of this rank as a complete VTU file: single precision,
   /// compressed, without date. The fields become cell or point data according
   /// to OutputCells::items_at. (deal.II's writer has point data only, and each

@@ -2,13 +2,195 @@
 #ifndef talus_materials_rate_law_kernel_h
 #define talus_materials_rate_law_kernel_h
 
-#include <talus/materials/elastic_trial_kernel.h>
-#include <talus/materials/point_strength_kernel.h>
+#include <talus/base/simd.h>
+#include <talus/materials/kinematics_kernel.h>
+#include <talus/materials/moduli.h>
 
 #include <type_traits>
 
 namespace talus
 {
+  /// Strength and stiffness of soil at one point, or of several points at once.
+  template <typename Number>
+  struct PointStrength
+  {
+    Number undisturbed; ///< undrained shear strength times `factor`, Pa
+    Number factor;      ///< strength factor [-]
+    Number stiffness;   ///< moduli of the point over the moduli of the law [-]
+    Number compliance;  ///< inverse of `stiffness` [-]
+    Number softening;   ///< softening per plastic variable [-]
+  };
+
+
+
+  /// Values at the points: a column, or one number for all points.
+  struct ColumnOrNumber
+  {
+    const double *column = nullptr;
+    double        number = 1.;
+
+    template <typename Number>
+    TALUS_ALWAYS_INLINE Number
+    at(const unsigned int p) const
+    {
+      return column == nullptr ? Number(number) : load<Number>(column + p);
+    }
+  };
+
+
+
+  /// Function strength(p, number) for the PointStrength of point(s) p.
+  struct StrengthOfPoints
+  {
+    ColumnOrNumber strength = {nullptr, 0.}; ///< undrained shear strength, Pa;
+                                             ///< 0 if the law has none
+    ColumnOrNumber factor         = {};      ///< strength factor [-]
+    ColumnOrNumber stiffness      = {};      ///< as in PointStrength
+    ColumnOrNumber cell_size      = {};      ///< m; 1 if not used
+    double         softening_rate = 1.; ///< softening over plastic variable and
+                                        ///< cell size, 1/m
+    /// Column of the softening [-], on which the strength depends: the plastic
+    /// variable, or the displacement across a shear band as wide as the cell
+    /// over the softening displacement. Invalid in elastic laws.
+    unsigned int softening_column = -1;
+
+    template <typename Number>
+    TALUS_ALWAYS_INLINE PointStrength<Number>
+    operator()(const unsigned int p, const Number & /*number*/) const
+    {
+      const Number share = factor.at<Number>(p);
+      // A division only where points differ.
+      const Number ratio = stiffness.at<Number>(p);
+      return {share * strength.at<Number>(p),
+              share,
+              ratio,
+              stiffness.column == nullptr ? ratio : Number(1. / ratio),
+              softening_rate * cell_size.at<Number>(p)};
+    }
+  };
+
+
+
+  /// Moduli of the point(s), Pa, from the @p moduli of the law.
+  template <typename Number>
+  TALUS_ALWAYS_INLINE ModuliOf<Number>
+  moduli_of_point(const Moduli &moduli, const PointStrength<Number> &strength)
+  {
+    return {moduli.lambda * strength.stiffness,
+            moduli.mu * strength.stiffness,
+            moduli.bulk * strength.stiffness};
+  }
+
+
+
+  /// Stress at the start and at the end of a step of a law in rate form, Pa.
+  /// Deviators refer to the axes at mid-step, as does the strain increment.
+  template <int dim, typename Number>
+  struct StressStep
+  {
+    Number              mean_before, mean_after;
+    Stress<dim, Number> deviator_before, deviator_after;
+  };
+
+
+
+  /// Integrate Hooke's law for the Jaumann rate of the Cauchy stress
+  /// objectively @cite hughes1980. The strain increment belongs to the
+  /// configuration at mid-step: the old deviator is rotated to mid-step by half
+  /// of the rotation of the step, and by the second half when stored. The
+  /// common alternative, adding the increment to the fully rotated stress, is
+  /// only of first order if strain and stress are not coaxial; see
+  /// @cite simo1998, section 8.3. The mean stress follows K ln det(I + H), so
+  /// that -p = K ln J on any path.
+  template <int dim, typename Number, typename Modulus>
+  TALUS_ALWAYS_INLINE StressStep<dim, Number>
+                      elastic_trial(const Stress<dim, Number>          &sigma,
+                                    const StrainIncrement<dim, Number> &strain,
+                                    const ModuliOf<Modulus>            &moduli)
+  {
+    StressStep<dim, Number> trial;
+    trial.mean_before = mean_normal(sigma);
+    trial.mean_after  = trial.mean_before + moduli.bulk * strain.volumetric;
+
+    trial.deviator_before =
+      turn(strain.half_rotation, add_mean(sigma, -trial.mean_before));
+    trial.deviator_after = trial.deviator_before;
+    for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+      trial.deviator_after[c] += 2. * moduli.mu * strain.deviatoric[c];
+    return trial;
+  }
+
+
+
+  /// Volume times deviator, mean of start and end of the step, J: the
+  /// contraction with a deviatoric strain of the step, plastic or total, gives
+  /// the work.
+  template <int dim, typename Number>
+  TALUS_ALWAYS_INLINE Stress<dim, Number>
+                      deviatoric_force(const Motion<dim, Number>     &motion,
+                                       const StressStep<dim, Number> &stress)
+  {
+    const Number        before = 0.5 * motion.volume_before;
+    const Number        after  = 0.5 * motion.volume_after;
+    Stress<dim, Number> force;
+    for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+      force[c] =
+        before * stress.deviator_before[c] + after * stress.deviator_after[c];
+    return force;
+  }
+
+
+
+  /// Work of the mean stress by a volumetric strain of the step [-], J, by the
+  /// trapezoidal rule.
+  template <int dim, typename Number>
+  TALUS_ALWAYS_INLINE Number
+  volumetric_work(const Motion<dim, Number>     &motion,
+                  const StressStep<dim, Number> &stress,
+                  const Number                  &volumetric_strain)
+  {
+    return 0.5 * volumetric_strain *
+           (motion.volume_before * stress.mean_before +
+            motion.volume_after * stress.mean_after);
+  }
+
+
+
+  /// Work of the stress over the step, J, by the trapezoidal rule; equal to the
+  /// work of the nodal forces. At constant volume, its deviatoric part minus
+  /// the work of the plastic strain is the exact change of V s:s/(4 mu), so a
+  /// cycle neither creates nor loses elastic energy.
+  template <int dim, typename Number>
+  TALUS_ALWAYS_INLINE Number
+  work_of_step(const Motion<dim, Number>          &motion,
+               const StrainIncrement<dim, Number> &strain,
+               const StressStep<dim, Number>      &stress,
+               const Stress<dim, Number>          &force)
+  {
+    return volumetric_work<dim, Number>(motion, stress, strain.volumetric) +
+           contract(force, strain.deviatoric);
+  }
+
+
+
+  /// Turn the stress at the end of the step from the axes at mid-step to the
+  /// axes at the end, and store the result.
+  template <int dim, typename Number>
+  TALUS_ALWAYS_INLINE void
+  store_turned_stress(const PointsView<dim>              &points,
+                      const unsigned int                  p,
+                      const StrainIncrement<dim, Number> &strain,
+                      const StressStep<dim, Number>      &stress)
+  {
+    store_stress<dim, Number>(points,
+                              p,
+                              add_mean(turn(strain.half_rotation,
+                                            stress.deviator_after),
+                                       stress.mean_after));
+  }
+
+
+
   /// Dilation of plastic flow at constant volume: zero, without computation.
   struct NoDilation
   {};

@@ -233,6 +233,6 @@ TEST(LinearSolver, ChoosesBySize)
   EXPECT_EQ(solver.choice(100000, 2, true), "direct");
   EXPECT_EQ(solver.choice(100001, 2, true), "CG");
   EXPECT_EQ(solver.choice(100001, 2, false), "GMRES");
-  EXPECT_EQ(solver.choice(10000, 3, false), "direct");
-  EXPECT_EQ(solver.choice(10001, 3, true), "CG");
+  EXPECT_EQ(solver.choice(300000, 3, false), "direct");
+  EXPECT_EQ(solver.choice(300001, 3, true), "CG");
 }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/io/vtu_arrays.h>
 #include <talus/io/vtu_writer.h>
 #include <talus/observers/grid_output.h>
 #include <talus/observers/output.h>
