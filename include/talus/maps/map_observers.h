@@ -7,7 +7,7 @@
 
 namespace talus
 {
-  /// Add the plan-view observers (maps, stations, lines, runout) to @p output,
+  /// Add the plan-view observers (maps, stations, lines, runout, series) to @p output,
   /// and declare the sections Maps, Stations and Runout. @p problem must
   /// outlive @p output.
   template <int dim>

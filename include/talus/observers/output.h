@@ -57,6 +57,13 @@ namespace talus
       fields_.observers.push_back(std::move(observer));
     }
 
+    /// Add an observer called at multiples of `Plan interval`.
+    void
+    add_plan_observer(std::unique_ptr<Observer<dim>> observer)
+    {
+      plan_.observers.push_back(std::move(observer));
+    }
+
     /// Write to @p folder, overriding the parameter file. Call after parsing.
     void
     set_folder(const std::string &folder);
@@ -200,6 +207,7 @@ namespace talus
 
     Schedule         rows_{0.25, {}, 0, {}};
     Schedule         fields_{1., {}, 0, {}};
+    Schedule         plan_{0., {}, 0, {}};
     Statistics<dim> *statistics_; ///< owned by rows_
     PhaseTimer      &timer_;
     Log             &log_;

@@ -14,7 +14,7 @@ namespace talus
   {
   public:
     /// Start after an output at @p time, s; the next output is due after at
-    /// most @p interval, s.
+    /// most @p interval, s. Without an interval, 0, no output is ever due.
     void
     begin(const double interval, const double time)
     {
