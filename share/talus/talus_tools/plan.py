@@ -2,7 +2,7 @@
 """The plan series of a run: the soil in each column of the maps in time."""
 
 import dataclasses
-import os
+import warnings
 
 import numpy
 
@@ -101,7 +101,8 @@ class PlanSeries:
 def read_numbers(path, n_columns):
     """Rows of a table of numbers; a line without its end is still being written, and left out."""
     try:
-        with open(path, **LENIENT) as stream:
+        with open(path, **LENIENT) as stream, warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of a table without rows
             stream.readline()
             rows = numpy.loadtxt((line for line in stream if line.endswith("\n")), delimiter=",",
                                  ndmin=2)
