@@ -77,6 +77,29 @@ class Tsunami(Case):
         self.assertEqual(set(map(tuple, blocks[0])), {(0.,) * len(blocks[0][0])})
         self.assertGreater(table[-1]["volume raised [m^3]"], 1e-3 * soil)
 
+    def check_sums(self, folder, statistics):
+        """The whole soil, column -1, is the soil of the statistics and the sum
+        over the columns, at all times that both tables have."""
+        rows = read_table(folder / "plan.csv")
+        known = {row["time [s]"]: row for row in statistics}
+        times = {row["time [s]"] for row in rows} & set(known)
+        self.assertGreater(len(times), 3)
+        for time_ in times:
+            now = [row for row in rows if row["time [s]"] == time_]
+            self.assertEqual([row["column"] for row in now],
+                             sorted({row["column"] for row in now}))
+            whole, *columns = now
+            self.assertEqual(whole["column"], -1)
+            for name, exact in (("mass [kg/m]", "mass [kg]"),
+                                ("momentum x [N s/m]", "momentum x [kg m/s]"),
+                                ("volume [m^2]", None)):
+                scale = max(abs(whole[name]), 1e-9)
+                total = math.fsum(row[name] for row in columns)
+                self.assertLessEqual(abs(total - whole[name]), 1e-12 * scale, name)
+                if exact:
+                    self.assertLessEqual(abs(known[time_][exact] - whole[name]),
+                                         1e-12 * scale, name)
+
     def test_section(self):
         folder = self.make_source(
             self.run_talus("one", "landslide-quick.prm", self.SECTION),
@@ -103,6 +126,7 @@ class Tsunami(Case):
         self.assertGreater(found, 40)
         for block in blocks:
             self.assertEqual(len(set(map(tuple, block))), 1)
+        self.check_sums(folder, statistics)
         # The centre of mass: velocity at the end, acceleration from rest.
         self.assertAlmostEqual(table[-1]["centre velocity x [m/s]"],
                                statistics[-1]["centre velocity x [m/s]"], 9)

@@ -13,6 +13,7 @@ from tools_case import Case, main
 
 from talus_tools.errors import UserError
 from talus_tools.plan import Cells
+from talus_tools.results import read
 from talus_tools.tsunami.degrees import on_degrees, transformation
 from talus_tools.tsunami.motion import Motion
 from talus_tools.tsunami.write import write_netcdf
@@ -157,6 +158,20 @@ class Series(Case):
         table = (folder / "tsunami-source.csv").read_text().split("\n")
         self.assertEqual([float(number) for number in table[2].split(",")],
                          [1, 1, 1, 0, 0, 1, -1, 1, -1, math.sqrt(2) / math.sqrt(9.81 * 10)])
+
+    def test_history(self):
+        series = read(self.run_folder([*self.ROWS, ""])).plan()
+        for place, thickness, speed in (((101, 201.5), [2, 1.5], [0, 8 / 6]),
+                                        ((103.9, 201), [0, 0.5], [0, 0]),
+                                        ((101, 200.5), [0, 0], [0, 0])):
+            times, depth, velocity = series.history(*place)
+            self.assertEqual(times.tolist(), [0, 1])
+            self.assertEqual(depth.tolist(), thickness)
+            self.assertEqual(velocity[:, 0].tolist(), speed)
+            self.assertEqual(velocity[:, 2].tolist(), [-v for v in speed])
+        for place in ((99, 201), (107, 201), (101, 199), (101, 203)):
+            with self.assertRaisesRegex(UserError, "outside of the cells"):
+                series.history(*place)
 
     def test_state_that_is_being_written(self):
         """A last state without all of its soil is left out, with or without a whole last line."""

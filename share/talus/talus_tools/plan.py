@@ -37,11 +37,13 @@ class Cells:
 
 @dataclasses.dataclass
 class Soil:
-    """Soil at one time [s]: numbers of the columns with soil and their volumes [m^3; in 2-D m^2];
-    of the whole soil the volume, the mass [kg; in 2-D kg/m] and the velocity [m/s]."""
+    """Soil at one time [s]: numbers of the columns with soil, their volumes [m^3; in 2-D m^2] and
+    depth-mean velocities, shape (columns, 2 or 3) [m/s]; of the whole soil the volume, the mass
+    [kg; in 2-D kg/m] and the velocity [m/s]."""
     time: float
     columns: numpy.ndarray
     volumes: numpy.ndarray
+    velocities: numpy.ndarray
     volume: float
     mass: float
     velocity: numpy.ndarray
@@ -87,9 +89,32 @@ class PlanSeries:
         for start, end in zip(starts, ends):
             whole, columns = rows[start], rows[start + 1:end]
             velocity = whole[4:] / whole[3] if whole[3] > 0 else numpy.zeros(self.dim)
-            result.append(Soil(whole[0], columns[:, 1].astype(int), columns[:, 2].copy(), whole[2],
-                               whole[3], velocity))
+            result.append(Soil(whole[0], columns[:, 1].astype(int), columns[:, 2].copy(),
+                               columns[:, 4:] / columns[:, 3:4], whole[2], whole[3], velocity))
         return result
+
+    def column(self, east, north):
+        """Number of the column around a place on the map; in 2-D the northing is ignored."""
+        column = int((east - self.cells.west) // self.cells.dx)
+        row = (int(self.cells.rows - 1 - (north - self.cells.south) // self.cells.dy)
+               if self.dim == 3 else 0)
+        if not (0 <= column < self.cells.columns and 0 <= row < self.cells.rows):
+            raise UserError(f"The place {east:g}, {north:g} is outside of the cells of "
+                            f"'{self.path}'. Give map coordinates, m.")
+        return row * self.cells.columns + column
+
+    def history(self, east, north=0):
+        """Times [s], thickness [m] and depth-mean velocity, shape (times, 2 or 3) [m/s], of the
+        soil in the column around a place; zeros without soil."""
+        column = self.column(east, north)
+        thickness = numpy.zeros(len(self.states))
+        velocity = numpy.zeros((len(self.states), self.dim))
+        for i, soil in enumerate(self.states):
+            at = numpy.searchsorted(soil.columns, column)
+            if at < len(soil.columns) and soil.columns[at] == column:
+                thickness[i] = soil.volumes[at] / self.area
+                velocity[i] = soil.velocities[at]
+        return numpy.array([soil.time for soil in self.states]), thickness, velocity
 
     def thickness(self, soil):
         """Thickness of the soil, shape (rows, columns) [m]."""

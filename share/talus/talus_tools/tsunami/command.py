@@ -6,7 +6,6 @@ import math
 import os
 
 from talus_tools.errors import Parser, UserError
-from talus_tools.plan import PlanSeries
 from talus_tools.results import Results
 from talus_tools.tsunami.motion import blocks_of, motion_of
 from talus_tools.tsunami.write import rows_of_table, write_dtopo, write_netcdf, write_table
@@ -49,7 +48,7 @@ def main():
     """Source of a tsunami model."""
     options = options_of_user()
     results = Results(options.run)
-    series = PlanSeries(results)
+    series = results.plan()
     options.interval = options.interval or float(results.parameters["Output/Plan interval"])
     options.gravity = float(results.parameters["Gravity/Magnitude"])
     blocks = blocks_of(series, options.interval)
