@@ -72,7 +72,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "python3:any")
 string(CONCAT CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
   "python3-numpy, python3-matplotlib, python3-pil, python3-jinja2, python3-scipy, "
-  "python3-sklearn")
+  "python3-sklearn, python3-gdal")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_EXTRA
   ${CMAKE_BINARY_DIR}/shlibs ${CMAKE_BINARY_DIR}/triggers)
@@ -98,7 +98,8 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
 in 3-D, from equilibrium and factor of safety to the run-out, with obstacles.
 Tools write reports (talus-report), comparisons (talus-compare) and films
 (talus-animate), run studies (talus-study), fit parameters to an observed deposit
-(talus-calibrate), and compute the response of a pipeline (talus-pipe).")
+(talus-calibrate), compute the response of a pipeline (talus-pipe), and write the
+source of a tsunami model (talus-tsunami).")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 "Headers and the files of CMake for programs that lead runs or have constitutive
 laws of their own, and an example of such a program.")

@@ -114,7 +114,8 @@ namespace talus
 
 
 
-    /// Return what replaces a parameter of former versions; otherwise empty.
+    /// Return what replaces a parameter or section of former versions;
+    /// otherwise empty.
     std::string
     replacement(const std::string &name)
     {
@@ -125,7 +126,11 @@ namespace talus
         {"Strain",
          " Static stages always use small strain: remove the line. A body at "
          "large strain comes to rest in the stage 'dynamics', with "
-         "'Gravity/Ramp time' and 'Damping/Local damping'."}};
+         "'Gravity/Ramp time' and 'Damping/Local damping'."},
+        {"Tsunami source",
+         " Set 'Output/Plan interval' and, for other cells, 'Maps/Cell size'. "
+         "After the run, `talus-tsunami FOLDER` makes the source; its options "
+         "replace the other parameters."}};
       const auto found = replacements.find(name);
       return found == replacements.end() ? "" : found->second;
     }
@@ -154,15 +159,16 @@ namespace talus
       static const std::regex bad_line("The line <(.*)> could not be parsed.*");
 
       std::smatch part;
+      const auto  advice = [&part](const std::string &keyword) {
+        const std::string found = replacement(part[1]);
+        return found.empty() ? similar(part[1], keyword) + listed : found;
+      };
       if (std::regex_match(error, part, unknown_entry))
         return place + "there is no parameter '" + part[1].str() +
-               "' in this section." +
-               (replacement(part[1]).empty() ?
-                  similar(part[1], "set ") + listed :
-                  replacement(part[1]));
+               "' in this section." + advice("set ");
       if (std::regex_match(error, part, unknown_section))
         return place + "there is no section '" + part[1].str() + "' here." +
-               similar(part[1], "subsection ") + listed;
+               advice("subsection ");
       if (std::regex_match(error, part, bad_value))
         return place + "'" + part[2].str() + "' is '" + part[1].str() +
                "', where " + expected(part[3]) +

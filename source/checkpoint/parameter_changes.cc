@@ -57,8 +57,8 @@ namespace talus
     bool
     is_harmless(const std::string &path)
     {
-      // A table cannot change its columns.
-      if (path == "Output/Runout")
+      // A table cannot change its columns, nor begin in the middle of a run.
+      if (path == "Output/Runout" || path == "Output/Plan interval")
         return false;
       // A run may continue to a later time and to more points.
       for (const std::string name : {"Title",

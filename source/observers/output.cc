@@ -71,6 +71,14 @@ namespace talus
                   "reaches a multiple of the interval.",
                   this->prm,
                   Patterns::Double(1e-12));
+    add_parameter(
+      "Plan interval",
+      settings_.plan_interval,
+      "Simulated time between two states in the series plan.csv, "
+      "the soil in each cell of the maps: talus-tsunami makes the "
+      "source of a tsunami model from the series [s]. 0: no series.",
+      this->prm,
+      Patterns::Double(0.));
     add_field_parameters(*this, settings_);
     add_parameter("Runout",
                   settings_.write_runout,
@@ -153,7 +161,7 @@ namespace talus
   void
   Output<dim>::check_observers(const State<dim> &state) const
   {
-    for (const Schedule *schedule : {&rows_, &fields_})
+    for (const Schedule *schedule : {&rows_, &fields_, &plan_})
       for (const auto &observer : schedule->observers)
         if (observer->is_enabled(settings_))
           {
@@ -209,7 +217,8 @@ namespace talus
 
     progress_.begin(state.time, end_time, communicator);
     settings_.folder = folder_;
-    for (Schedule *schedule : {&rows_, &fields_})
+    plan_.interval   = settings_.plan_interval;
+    for (Schedule *schedule : {&rows_, &fields_, &plan_})
       {
         // Start from the time of the state, loaded from the checkpoint in a
         // resumed run: output continues at the same multiples of the interval
@@ -233,7 +242,7 @@ namespace talus
     if (has_started_)
       return;
     has_started_ = true;
-    for (Schedule *schedule : {&rows_, &fields_})
+    for (Schedule *schedule : {&rows_, &fields_, &plan_})
       {
         for (const auto &observer : schedule->observers)
           if (observer->is_enabled(settings_))
@@ -262,6 +271,8 @@ namespace talus
       }
     if (fields_are_due)
       write(fields_, state);
+    if (plan_.is_due(state, last))
+      write(plan_, state);
     if (last)
       {
         // Wall times are written to the log only: files compared between runs
@@ -282,7 +293,7 @@ namespace talus
   Output<dim>::follow(const State<dim> &state)
   {
     const PhaseTimer::Scope scope(timer_, "output");
-    for (const Schedule *schedule : {&rows_, &fields_})
+    for (const Schedule *schedule : {&rows_, &fields_, &plan_})
       for (const auto &observer : schedule->observers)
         if (observer->is_enabled(settings_))
           observer->follow(state);
@@ -328,7 +339,8 @@ namespace talus
              "-",
              fields_.last_step,
              Reduction::equal);
-    for (Schedule *schedule : {&rows_, &fields_})
+    list.add("step of the last plan", "-", plan_.last_step, Reduction::equal);
+    for (Schedule *schedule : {&rows_, &fields_, &plan_})
       for (const auto &observer : schedule->observers)
         observer->list_state(list);
   }
@@ -345,7 +357,7 @@ namespace talus
   {
     OutputSettings settings = settings_;
     settings.folder         = folder_;
-    for (const Schedule *schedule : {&rows_, &fields_})
+    for (const Schedule *schedule : {&rows_, &fields_, &plan_})
       for (const auto &observer : schedule->observers)
         if (observer->is_enabled(settings))
           {
@@ -370,7 +382,7 @@ namespace talus
     for (const char *name : {"parameters.prm", "log.txt", "lock"})
       if (!std::filesystem::exists(settings.folder / name))
         missing.push_back(name);
-    for (const Schedule *schedule : {&rows_, &fields_})
+    for (const Schedule *schedule : {&rows_, &fields_, &plan_})
       for (const auto &observer : schedule->observers)
         if (observer->is_enabled(settings))
           for (const std::string &name : observer->missing_files(settings))
@@ -413,7 +425,7 @@ namespace talus
   void
   Output<dim>::sync(const MPI_Comm communicator)
   {
-    for (const Schedule *schedule : {&rows_, &fields_})
+    for (const Schedule *schedule : {&rows_, &fields_, &plan_})
       for (const auto &observer : schedule->observers)
         if (observer->is_enabled(settings_))
           observer->sync();

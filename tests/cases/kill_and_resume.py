@@ -256,7 +256,8 @@ class SlideOverObstacles(KillAndResume):
                            "Water/Added mass coefficient=0.1",
                            "Water/Skin friction coefficient=0.01",
                            "Water/Pressure drag coefficient=1",
-                           "Maps/Write=true", "Stations/Points=toe: 35",
+                           "Maps/Write=true", "Output/Plan interval=0.5",
+                           "Stations/Points=toe: 35",
                            "Stations/Lines=route: 20; 60"]
 
 

@@ -22,6 +22,7 @@ namespace talus
     bool                  write_obstacles = true;
     bool                  write_runout    = true;
     double                averaging_time  = 0.1; ///< window for forces, s
+    double                plan_interval   = 0;   ///< s; 0: no series
   };
 
 

@@ -27,7 +27,7 @@ namespace talus
   {
   public:
     /// Start after an output at @p time, s; the next output is due after at
-    /// most @p interval, s.
+    /// most @p interval, s. Without an interval, 0, no output is ever due.
     void
     begin(const double interval, const double time)
     {
@@ -102,6 +102,13 @@ namespace talus
     add_field_observer(std::unique_ptr<Observer<dim>> observer)
     {
       fields_.observers.push_back(std::move(observer));
+    }
+
+    /// Add an observer called at multiples of `Plan interval`.
+    void
+    add_plan_observer(std::unique_ptr<Observer<dim>> observer)
+    {
+      plan_.observers.push_back(std::move(observer));
     }
 
     /// Write to @p folder, overriding the parameter file. Call after parsing.
@@ -247,6 +254,7 @@ namespace talus
 
     Schedule         rows_{0.25, {}, 0, {}};
     Schedule         fields_{1., {}, 0, {}};
+    Schedule         plan_{0., {}, 0, {}};
     Statistics<dim> *statistics_; ///< owned by rows_
     PhaseTimer      &timer_;
     Log             &log_;

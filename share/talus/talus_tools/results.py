@@ -9,6 +9,7 @@ import numpy
 from talus_tools.errors import UserError
 from talus_tools.esri import read_grid
 from talus_tools.parameters import read_parameters
+from talus_tools.plan import PlanSeries
 from talus_tools.tables import find_column, read_lines, read_table
 from talus_tools.vtu import VtuSeries
 
@@ -93,6 +94,10 @@ class Results:
         if not self.has("lines.csv"):
             raise UserError(f"'{self.folder}' has no table 'lines.csv'.")
         return read_lines(self.path("lines.csv"))
+
+    def plan(self):
+        """The series plan.csv: soil by column and time; plan().history(east, north)."""
+        return PlanSeries(self)
 
     def series(self, name):
         """Fields by time; None where there are none."""
