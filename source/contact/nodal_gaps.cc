@@ -31,6 +31,7 @@ namespace talus
     exchange_.prepare(grid, n_slots_);
     gaps_.assign(n_slots_ * grid.n_nodes(), none);
     is_open_.assign(grid.n_nodes(), 0);
+    present_.clear();
     of_point_.resize(n_slots_);
   }
 
@@ -48,6 +49,8 @@ namespace talus
     // the unused gap must not prolong the search. At a ghost node all slots are
     // open: only the owner knows all surfaces near a node, and whole records
     // are exchanged.
+    for (const unsigned int node : present_)
+      std::fill_n(gaps_.begin() + n * node, n, none);
     present_.clear();
     n_open_ = 0;
     for (const NodeAndSurface &pair : pairs)
@@ -80,8 +83,8 @@ namespace talus
       }
     for (const unsigned int node : present_)
       is_open_[node] = 0;
-    exchange_.minimum_to_owners(gaps_.data());
-    exchange_.copy_to_ghosts(gaps_.data());
+    exchange_.minimum_to_owners(gaps_.data(), none);
+    exchange_.copy_to_ghosts(gaps_.data(), none);
   }
 
 
