@@ -103,12 +103,10 @@ namespace talus
       {
         int size = 0;
         MPI_Get_count(&statuses_[i], MPI_DOUBLE, &size);
-        for (const double *entry = incoming_[i].data(),
-                          *const end = entry + size;
-             entry != end;
-             entry += 1 + width_)
+        for (int at = 0; at < size; at += 1 + width_)
           {
-            const unsigned int node =
+            const double *const entry = incoming_[i].data() + at;
+            const unsigned int  node =
               (neighbors[i].*to)[static_cast<unsigned int>(entry[0])];
             received_nodes_.push_back(node);
             receive(records + std::size_t(stride_) * node, entry + 1);
@@ -134,14 +132,7 @@ namespace talus
                for (unsigned int k = 0; k < width_; ++k)
                  record[k] += sent[k];
              });
-    // Ghosts that were not sent are zero.
-    for (unsigned int i = 0; i < outgoing_.size(); ++i)
-      for (std::size_t k = 0; k < outgoing_[i].size(); k += 1 + width_)
-        std::fill_n(records + std::size_t(stride_) *
-                                nodes_->shared_nodes()[i].ghosts[static_cast<
-                                  unsigned int>(outgoing_[i][k])],
-                    width_,
-                    0.);
+    set_ghosts(records, 0.);
   }
 
 
@@ -182,11 +173,13 @@ namespace talus
   void
   NodalExchange<dim>::count_sent() const
   {
+    SentByRank &sent = nodes_->sent();
+    sent.n_nodes_with_soil += sent.n_ghosts_with_soil;
+    sent.n_messages += outgoing_.size();
     for (const Message &message : outgoing_)
       {
-        nodes_->sent().n_messages += 1;
-        nodes_->sent().n_records += message.size() / (1 + width_);
-        nodes_->sent().n_bytes += sizeof(double) * message.size();
+        sent.n_nodes += message.size() / (1 + width_);
+        sent.n_bytes += sizeof(double) * message.size();
       }
   }
 

@@ -269,6 +269,8 @@ namespace talus
   NodalFields<dim>::share_with_ghosts(const Grid<dim> &grid)
   {
     exchange_of_motions_.copy_to_ghosts(motions_.data());
+    grid.sent().n_ghosts_with_soil =
+      exchange_of_motions_.received_nodes().size();
     for (const auto &hanging : grid.hanging_nodes())
       if (is_active_[hanging.node])
         {

@@ -274,7 +274,7 @@ namespace talus
   {
     // The partitioner has asked the other ranks for their ghosts. Ghosts are
     // sorted by owner.
-    const Utilities::MPI::Partitioner  partitioner(owned_nodes_,
+    const Utilities::MPI::Partitioner     partitioner(owned_nodes_,
                                                   ghost_nodes_,
                                                   communicator);
     std::map<unsigned int, NodesWithRank> by_rank;

@@ -230,6 +230,7 @@ namespace talus
   void
   Output<dim>::start(const State<dim> &state)
   {
+    state.grid.sent() = {}; // without static stages
     if (has_started_)
       return;
     has_started_ = true;
@@ -268,6 +269,9 @@ namespace talus
         // contain no wall times.
         for (const std::string &line :
              phase_times(timer_, state.communicator()))
+          log_.say(LogLevel::info, line);
+        for (const std::string &line : work_of_ranks(
+               timer_, progress_, state.grid.sent(), state.communicator()))
           log_.say(LogLevel::info, line);
         progress_.finish(state.time, state.points.size());
       }

@@ -183,18 +183,18 @@ namespace talus
     void
     deactivate_received();
 
-    unsigned int               n_owned_nodes_ = 0;
-    unsigned int               n_nodes_       = 0;
-    LargePageVector<double>    sums_;
-    LargePageVector<double>    motions_;
-    NodalExchange<dim>         exchange_of_sums_;
-    NodalExchange<dim>         exchange_of_motions_;
-    NodalExchange<dim>         exchange_of_volumes_;
-    std::vector<unsigned int>  active_nodes_;
-    std::vector<unsigned int>  active_ghosts_;
-    std::vector<unsigned int>  formerly_active_nodes_;
-    std::vector<unsigned int>  active_boundary_nodes_;
-    unsigned int n_active_of_cells_ = 0; ///< then those of other ranks
+    unsigned int              n_owned_nodes_ = 0;
+    unsigned int              n_nodes_       = 0;
+    LargePageVector<double>   sums_;
+    LargePageVector<double>   motions_;
+    NodalExchange<dim>        exchange_of_sums_;
+    NodalExchange<dim>        exchange_of_motions_;
+    NodalExchange<dim>        exchange_of_volumes_;
+    std::vector<unsigned int> active_nodes_;
+    std::vector<unsigned int> active_ghosts_;
+    std::vector<unsigned int> formerly_active_nodes_;
+    std::vector<unsigned int> active_boundary_nodes_;
+    unsigned int n_active_of_cells_          = 0; ///< then those of other ranks
     unsigned int n_active_boundary_of_cells_ = 0;
     std::vector<unsigned char> is_active_;
   };

@@ -36,6 +36,18 @@ namespace talus
 
 
 
+  /// Messages with nodal records that this rank has sent.
+  struct SentByRank
+  {
+    double n_messages         = 0;
+    double n_nodes            = 0; ///< summed over the exchanges
+    double n_bytes            = 0;
+    double n_ghosts_with_soil = 0; ///< in the last step
+    double n_nodes_with_soil  = 0; ///< the same, summed over the exchanges
+  };
+
+
+
   /// Numbers of the nodes known to this rank: owned nodes in the order of their
   /// first occurrence in the owned cells, then ghosts by owner. Ghosts are the
   /// nodes of owned and ghost cells owned by other ranks, and the masters of
@@ -80,16 +92,8 @@ namespace talus
       return shared_nodes_;
     }
 
-    /// What this rank has sent to the others since the start of the run.
-    struct Sent
-    {
-      double n_messages = 0; ///< one per neighbour and exchange
-      double n_records  = 0; ///< one per node and exchange
-      double n_bytes    = 0;
-    };
-
-    /// Counts of NodalExchange; no part of the numbering.
-    Sent &
+    /// Counts of NodalExchange, no part of the numbering.
+    SentByRank &
     sent() const
     {
       return sent_;
@@ -136,7 +140,7 @@ namespace talus
     dealii::IndexSet           owned_nodes_;
     dealii::IndexSet           ghost_nodes_;
     std::vector<NodesWithRank> shared_nodes_;
-    mutable Sent               sent_;
+    mutable SentByRank         sent_;
     std::vector<HangingNode>   hanging_nodes_;
     std::map<dealii::types::global_dof_index, dealii::types::global_dof_index>
       twins_; ///< twin of each node on an upper periodic face
