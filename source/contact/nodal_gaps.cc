@@ -31,6 +31,7 @@ namespace talus
     width_ = n_slots_ + 1;
     exchange_.prepare(grid, width_);
     records_.assign(width_ * grid.n_nodes(), none);
+    fractions_.assign(grid.n_nodes(), 0.);
     is_open_.assign(grid.n_nodes(), 0);
     present_.clear();
     of_point_.resize(n_slots_);
@@ -90,6 +91,11 @@ namespace talus
         if (node < n_owned)
           record(node)[n_slots_] = volume_fraction(node);
     exchange_.copy_to_ghosts(records_.data(), none);
+    for (const NodeAndSurface &pair : pairs)
+      {
+        const double fraction = record(pair.node)[n_slots_];
+        fractions_[pair.node] = (fraction == none ? 0. : fraction);
+      }
   }
 
 

@@ -126,8 +126,7 @@ namespace talus
     double
     volume_fraction(const unsigned int node) const
     {
-      const double fraction = records_[width_ * node + n_slots_];
-      return fraction == none ? 0. : fraction;
+      return fractions_[node];
     }
 
     /// Return the clearance between the soil at @p node and surface @p k, m:
@@ -186,8 +185,9 @@ namespace talus
     TableOfCell                table_of_cell_;
     std::size_t                n_slots_ = 0;
     std::size_t                width_   = 0;
-    std::vector<double>        records_; ///< by node: gaps, m, fraction [-]
-    std::vector<unsigned char> is_open_; ///< by node, used in find()
+    std::vector<double>        records_;   ///< by node: gaps, m, fraction [-]
+    std::vector<double>        fractions_; ///< by node [-]
+    std::vector<unsigned char> is_open_;   ///< by node, used in find()
     std::size_t                n_open_ = 0;
     std::vector<unsigned int>  near_cell_; ///< surfaces near the current cell
     std::vector<double>        of_point_;  ///< gaps of a point, by slot, m
