@@ -43,7 +43,7 @@ namespace talus
     double n_nodes            = 0; ///< summed over the exchanges
     double n_bytes            = 0;
     double n_ghosts_with_soil = 0; ///< in the last step
-    double n_nodes_with_soil  = 0; ///< the same, summed over the exchanges
+    double n_nodes_with_soil  = 0; ///< ghosts, summed over the exchanges
   };
 
 
