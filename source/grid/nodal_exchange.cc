@@ -30,9 +30,13 @@ namespace talus
                            const double                     rest,
                            Message                         &message) const
   {
+    // The nodes are scattered over the memory.
+    constexpr unsigned int ahead = 16;
     message.clear();
     for (unsigned int i = 0; i < nodes.size(); ++i)
       {
+        if (i + ahead < nodes.size())
+          __builtin_prefetch(records + std::size_t(stride_) * nodes[i + ahead]);
         const double *const record = records + std::size_t(stride_) * nodes[i];
         if (std::all_of(record, record + width_, [rest](const double x) {
               return x == rest;
