@@ -144,8 +144,8 @@ namespace talus
     const unsigned int n_sweeps = (!has_begun_         ? n_first_sweeps
                                    : obstacles_.move() ? n_sweeps_moving
                                                        : n_sweeps_at_rest);
-    for (unsigned int s = 0; s < n_sweeps; ++s)
-      sweep(state);
+    for (unsigned int s = 1; s <= n_sweeps; ++s)
+      sweep(state, s < n_sweeps || obstacles_.change_by_slip());
     for (const unsigned int c : constraints_.loaded())
       {
         ContactImpulse<dim> &impulse = impulses_[c];
@@ -377,10 +377,10 @@ namespace talus
 
 
   // Bodies with a mass get the velocities with which their momenta balance the
-  // impulses of this sweep.
+  // impulses of this sweep. The last sweep needs no velocities at ghosts.
   template <int dim>
   void
-  Contact<dim>::sweep(const State<dim> &state)
+  Contact<dim>::sweep(const State<dim> &state, const bool is_read_at_ghosts)
   {
     const double dt = state.time_step;
     bodies_.update_velocities(state);
@@ -406,7 +406,7 @@ namespace talus
         impulse.normal     = projected.normal;
         impulse.tangential = projected.tangential;
       }
-    nodes_.update_velocities();
+    nodes_.update_velocities(is_read_at_ghosts);
   }
 
 

@@ -71,7 +71,7 @@ namespace talus
 
   template <int dim>
   void
-  ContactNodes<dim>::update_velocities()
+  ContactNodes<dim>::update_velocities(const bool for_ghosts)
   {
     exchange_of_impulses_.add_to_owners(impulses_.data());
     for (std::size_t i = 0; i < active_.size(); ++i)
@@ -87,7 +87,8 @@ namespace talus
             impulse[d] = 0;
           }
       }
-    exchange_of_records_.copy_to_ghosts(records_.data());
+    if (for_ghosts)
+      exchange_of_records_.copy_to_ghosts(records_.data());
   }
 
 

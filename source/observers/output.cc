@@ -9,6 +9,7 @@
 #include <talus/observers/output.h>
 #include <talus/observers/points_output.h>
 #include <talus/observers/profile.h>
+#include <talus/observers/phase_times.h>
 #include <talus/observers/progress.h>
 
 namespace talus
@@ -239,6 +240,7 @@ namespace talus
   void
   Output<dim>::start(const State<dim> &state)
   {
+    state.grid.sent() = {}; // without static stages
     if (has_started_)
       return;
     has_started_ = true;
@@ -279,6 +281,9 @@ namespace talus
         // contain no wall times.
         for (const std::string &line :
              phase_times(timer_, state.communicator()))
+          log_.say(LogLevel::info, line);
+        for (const std::string &line : work_of_ranks(
+               timer_, progress_, state.grid.sent(), state.communicator()))
           log_.say(LogLevel::info, line);
         progress_.finish(state.time, state.points.size());
       }

@@ -3,59 +3,12 @@
 #include <talus/base/errors.h>
 #include <talus/observers/progress.h>
 
-#include <deal.II/base/utilities.h>
-
 #include <cmath>
 #include <iomanip>
-#include <sstream>
 
 namespace talus
 {
   using namespace dealii;
-
-  std::vector<std::string>
-  phase_times(const PhaseTimer &timer, const MPI_Comm communicator)
-  {
-    // All ranks have the same phases in the same order, as required by the sums
-    // over ranks below.
-    const auto phases = timer.seconds();
-    double     total  = 0;
-    for (const auto &phase : phases)
-      total += phase.second;
-    // Use means over the ranks: the shares of the means add up to 100 %.
-    total = Utilities::MPI::sum(total, communicator) /
-            Utilities::MPI::n_mpi_processes(communicator);
-
-    std::vector<std::string> lines = {
-      "Wall time by phase, s: least, mean and largest over the ranks, share"};
-    // The difference of minimum and maximum shows whether ranks wait.
-    for (const auto &[name, seconds] : phases)
-      {
-        const auto over_ranks =
-          Utilities::MPI::min_max_avg(seconds, communicator);
-        std::ostringstream line;
-        line << "  " << std::left << std::setw(16) << name << std::right
-             << std::fixed << std::setprecision(3) << std::setw(12)
-             << over_ranks.min << std::setw(12) << over_ranks.avg
-             << std::setw(12) << over_ranks.max << std::setprecision(1)
-             << std::setw(8) << 100. * over_ranks.avg / total << " %";
-        lines.push_back(line.str());
-      }
-
-    // VmHWM is the peak resident memory, kB.
-    Utilities::System::MemoryStats memory;
-    Utilities::System::get_memory_stats(memory);
-    const auto peak =
-      Utilities::MPI::min_max_avg(memory.VmHWM / 1024., communicator);
-    std::ostringstream line;
-    line << std::fixed << std::setprecision(0)
-         << "Peak memory of a rank, MB: least " << peak.min << ", mean "
-         << peak.avg << ", largest " << peak.max;
-    lines.push_back(line.str());
-    return lines;
-  }
-
-
 
   namespace
   {

@@ -149,6 +149,7 @@ namespace talus
     is_node_of_facets_.assign(grid.n_nodes(), 0);
     nodes_of_facets_.clear();
     filled_nodes_.clear();
+    covered_nodes_.clear();
     soil_nodes_.clear();
     listed_cells_.clear();
     move_facets(grid);
@@ -178,7 +179,8 @@ namespace talus
 
 
   /// List the nodes whose soil determines the velocities of the facets: nodes
-  /// of facets, masters of hanging nodes among them, and nodes of other ranks.
+  /// of facets, masters of hanging nodes among them, and the nodes of this rank
+  /// that other ranks list. Collective.
   template <int dim>
   void
   FreeSurface<dim>::list_nodes_of_facets(const Grid<dim> &grid)
@@ -194,9 +196,6 @@ namespace talus
     };
     for (const SurfaceFacet<dim> &facet : facets())
       std::for_each(facet.node.begin(), facet.node.end(), add);
-    std::for_each(grid.interface_nodes().begin(),
-                  grid.interface_nodes().end(),
-                  add);
     for (const HangingNode &hanging : grid.hanging_nodes())
       if (is_node_of_facets_[hanging.node])
         {
@@ -204,6 +203,17 @@ namespace talus
           for (const auto &master : hanging.masters)
             add(master.first);
         }
+    // Ask the owners of the ghosts; set_mobilities() clears the marks.
+    std::fill(area_per_mass_.begin() + grid.n_owned_nodes(),
+              area_per_mass_.end(),
+              0.);
+    for (const unsigned int node : nodes_of_facets_)
+      if (node >= grid.n_owned_nodes())
+        area_per_mass_[node] = 1.;
+    exchange_of_loads_.add_to_owners(area_per_mass_.data());
+    std::for_each(exchange_of_loads_.received_nodes().begin(),
+                  exchange_of_loads_.received_nodes().end(),
+                  add);
   }
 
 
@@ -213,10 +223,9 @@ namespace talus
   FreeSurface<dim>::find(const State<dim> &state, const Contact<dim> &contact)
   {
     const Grid<dim> &grid = state.grid;
-    // Records of other ranks come back by messages.
     filled_nodes_.insert(filled_nodes_.end(),
-                         grid.interface_nodes().begin(),
-                         grid.interface_nodes().end());
+                         covered_nodes_.begin(),
+                         covered_nodes_.end());
     for (const unsigned int node : filled_nodes_)
       std::fill_n(record(node), width, 0.);
     filled_nodes_.clear();
@@ -273,6 +282,7 @@ namespace talus
     if (solid_.exists())
       add_contact_areas(contact);
     exchange_.add_to_owners(records_.data());
+    covered_nodes_ = exchange_.received_nodes();
     for (const unsigned int node : nodes.active_nodes())
       if (nodes.mass(node) > state.constants.mass_cutoff)
         {

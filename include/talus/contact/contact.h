@@ -219,7 +219,7 @@ namespace talus
     void
     warm_start(const State<dim> &state);
     void
-    sweep(const State<dim> &state);
+    sweep(const State<dim> &state, bool is_read_at_ghosts);
     void
     add_impulse(unsigned int facet, const dealii::Tensor<1, dim> &impulse);
     void

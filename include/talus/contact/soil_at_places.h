@@ -45,7 +45,7 @@ namespace talus
     double
     volume_fraction(const unsigned int node) const
     {
-      return fractions_of_nodes_[node];
+      return gaps_.volume_fraction(node);
     }
 
     /// Mean of volume_fraction() at facet @p facet of Facets::owned() [-].
@@ -101,8 +101,6 @@ namespace talus
     void
     find_gaps(const State<dim> &state);
     void
-    find_fractions_of_nodes(const State<dim> &state);
-    void
     find_fractions(const std::vector<ContactFacet<dim>> &facets,
                    std::vector<double>                  &fractions) const;
 
@@ -113,8 +111,6 @@ namespace talus
     SurfaceTables<dim>    tables_{obstacles_};
     NodalGaps<dim>        gaps_; ///< surfaces: the obstacles
     FacetCoverage<dim>    coverage_{obstacles_, facets_};
-    NodalExchange<dim>    exchange_;
-    std::vector<double>   fractions_of_nodes_;  ///< by node [-]
     std::vector<double>   fractions_;           ///< by owned facet [-]
     std::vector<double>   fractions_of_ghosts_; ///< by ghost facet [-]
   };

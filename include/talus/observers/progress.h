@@ -2,26 +2,15 @@
 #ifndef talus_observers_progress_h
 #define talus_observers_progress_h
 
-#include <talus/base/phase_timer.h>
 #include <talus/io/log.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <chrono>
 #include <iostream>
-#include <string>
-#include <vector>
 
 namespace talus
 {
-  /// Report lines with the wall time of each phase (minimum, mean and maximum
-  /// over the ranks; share of the mean in the total) and with the peak memory.
-  /// Collective; the lines are valid on all ranks.
-  std::vector<std::string>
-  phase_times(const PhaseTimer &timer, MPI_Comm communicator);
-
-
-
   /// Progress and speed of the run: lines on the terminal, and a final line
   /// with the throughput, printed even if standard output is no terminal.
   class Progress
@@ -42,6 +31,20 @@ namespace talus
     {
       ++now_.steps;
       now_.point_steps += n_points;
+    }
+
+    /// Number of steps since begin().
+    double
+    n_steps() const
+    {
+      return now_.steps;
+    }
+
+    /// Sum over the steps of the points on the local rank.
+    double
+    n_point_steps() const
+    {
+      return now_.point_steps;
     }
 
     /// Print time, share of the end time, steps and point-steps per second

@@ -196,6 +196,7 @@ namespace talus
     std::vector<unsigned char> is_node_of_facets_;   ///< by node
     std::vector<const HangingNode *> hanging_nodes_; ///< among nodes_of_facets_
     std::vector<unsigned int>        filled_nodes_;  ///< records may be nonzero
+    std::vector<unsigned int>        covered_nodes_; ///< by other ranks too
     std::vector<unsigned int>  soil_nodes_, previous_soil_nodes_; ///< f > 0
     std::vector<unsigned int>  listed_cells_;  ///< around soil_nodes_
     std::vector<unsigned int>  surface_cells_; ///< candidates for a facet

@@ -103,6 +103,8 @@ namespace
     // Before the table of wall times.
     EXPECT_EQ(lines("log.txt").at(0), "It begins.");
     EXPECT_EQ(lines("log.txt").at(1).find("Wall time by phase"), 0u);
+    // One point in two steps.
+    EXPECT_EQ(lines("log.txt").back().find("Work: 2 point-steps of "), 0u);
     EXPECT_EQ(lines("statistics.csv").size(), 3u);
     EXPECT_EQ(lines("profile.csv").size(), 3u);
   }
