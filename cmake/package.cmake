@@ -72,7 +72,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "python3:any")
 string(CONCAT CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
   "python3-numpy, python3-matplotlib, python3-pil, python3-jinja2, python3-scipy, "
-  "python3-sklearn, python3-gdal")
+  "python3-sklearn, python3-gdal, libopenblas0-serial")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_EXTRA
   ${CMAKE_BINARY_DIR}/shlibs ${CMAKE_BINARY_DIR}/triggers)
