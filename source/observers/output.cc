@@ -7,9 +7,9 @@
 #include <talus/io/text_file.h>
 #include <talus/observers/grid_output.h>
 #include <talus/observers/output.h>
+#include <talus/observers/phase_times.h>
 #include <talus/observers/points_output.h>
 #include <talus/observers/profile.h>
-#include <talus/observers/phase_times.h>
 #include <talus/observers/progress.h>
 
 namespace talus

@@ -2,8 +2,8 @@
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/base/interrupt.h>
-#include <talus/simulation/static_stages.h>
 #include <talus/simulation/shear_bands.h>
+#include <talus/simulation/static_stages.h>
 
 #include <deal.II/base/mpi.h>
 
