@@ -115,7 +115,7 @@ namespace talus
 
     Epetra_LinearProblem               problem;
     std::unique_ptr<Amesos_BaseSolver> solver;
-    std::vector<int>                   order; ///< of the rows, for MUMPS
+    std::vector<int>                   order; ///< places of the rows
     Teuchos::ParameterList             parameters;
     bool                               symmetric;
     bool                               has_ordering = false;
@@ -142,9 +142,9 @@ namespace talus
 
 
 
-  /// In KLU the search for pivots takes half of the time. The pivots of the previous
-  /// matrix save the search, but may be poor for the present matrix: the
-  /// residual decides.
+  /// In KLU the search for pivots takes half of the time. The pivots of the
+  /// previous matrix save the search, but may be poor for the present matrix:
+  /// the residual decides.
   bool
   LuFactorization::solve(const TrilinosWrappers::SparseMatrix &matrix,
                          TrilinosWrappers::MPI::Vector        &x,
