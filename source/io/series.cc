@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
+#include <talus/io/files.h>
 #include <talus/io/series.h>
 #include <talus/io/vtu_writer.h>
 
@@ -87,10 +88,9 @@ namespace talus
     write_file(path_of_index(folder_, name_), [&](std::ostream &out) {
       out << "<?xml version=\"1.0\"?>\n"
              "<VTKFile type=\"Collection\" version=\"0.1\">\n"
-             "  <Collection>\n"
-          << std::setprecision(16);
+             "  <Collection>\n";
       for (const Entry &entry : entries_)
-        out << "    <DataSet timestep=\"" << entry.time
+        out << "    <DataSet timestep=\"" << csv_field(entry.time)
             << "\" group=\"\" part=\"0\" file=\"" << entry.file << "\"/>\n";
       out << "  </Collection>\n</VTKFile>\n";
     });

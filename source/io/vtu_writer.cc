@@ -222,7 +222,7 @@ namespace talus
              "<FieldData>\n"
              "<DataArray type=\"Float64\" Name=\"TIME\" NumberOfTuples=\"1\" "
              "format=\"ascii\">"
-          << std::setprecision(16) << cells.time
+          << csv_field(cells.time)
           << "</DataArray>\n"
              "<DataArray type=\"Int64\" Name=\"CYCLE\" NumberOfTuples=\"1\" "
              "format=\"ascii\">"
