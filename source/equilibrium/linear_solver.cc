@@ -2,6 +2,8 @@
 #include <talus/base/errors.h>
 #include <talus/equilibrium/linear_solver.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_solver.h>
 
@@ -13,7 +15,9 @@
 #include <metis.h>
 #include <ml_MultiLevelPreconditioner.h>
 
+#include <cstdlib>
 #include <iostream>
+#include <sstream>
 #include <vector>
 
 namespace talus
@@ -65,19 +69,54 @@ namespace talus
 
 
 
-    /// Discards what is written to std::cerr during the life of the object.
-    struct QuietErrorStream
+    /// Collects what is written to std::cerr during the life of the object.
+    class ErrorStream
     {
-      QuietErrorStream()
+    public:
+      ErrorStream()
+        : previous_(std::cerr.rdbuf(collected_.rdbuf()))
+      {}
+
+      ~ErrorStream()
       {
-        std::cerr.setstate(std::ios::failbit);
+        std::cerr.rdbuf(previous_);
       }
 
-      ~QuietErrorStream()
+      std::string
+      words() const
       {
-        std::cerr.clear();
+        return collected_.str();
       }
+
+    private:
+      std::ostringstream collected_;
+      std::streambuf    *previous_;
     };
+
+
+
+    /// Throw ExcUser if MUMPS failed for another reason than a singular matrix,
+    /// on any rank: no memory for the factors. The interface tells the reason
+    /// only by @p words. Collective.
+    void
+    check_for_lack_of_memory(const std::string &words,
+                             const MPI_Comm     communicator)
+    {
+      const std::string key = "INFOG(1) = ";
+      const auto        at  = words.find(key);
+      const int         reason =
+        Utilities::MPI::min(at == std::string::npos
+                              ? 0
+                              : std::atoi(&words[at + key.size()]),
+                            communicator);
+      AssertThrow(reason == 0 || reason == -6 || reason == -10,
+                  ExcUser(text("The factors of the matrix of the static stage "
+                               "need more memory than there is (MUMPS ends "
+                               "with INFOG(1) = ",
+                               reason,
+                               "). Choose larger cells, or 'Linear solver/Type "
+                               "= GMRES'.")));
+    }
   } // namespace
 
 
@@ -180,14 +219,18 @@ namespace talus
     // Epetra's class of a linear problem takes no constant vectors.
     amesos_->problem.SetRHS(
       const_cast<Epetra_MultiVector *>(&rhs.trilinos_vector()));
+    std::string words;
     {
       // A singular matrix is no error here, but MUMPS' interface prints one.
-      const QuietErrorStream quiet;
+      const ErrorStream stream;
       amesos_->has_ordering =
         amesos_->has_ordering || amesos_->solver->SymbolicFactorization() == 0;
       amesos_->has_pivots =
         amesos_->has_ordering && amesos_->solver->NumericFactorization() == 0;
+      words = stream.words();
     }
+    if (!amesos_->has_pivots)
+      check_for_lack_of_memory(words, matrix.get_mpi_communicator());
     if (!amesos_->has_pivots || amesos_->solver->Solve() != 0)
       return false;
     constexpr double              largest_residual = 1e-10;
