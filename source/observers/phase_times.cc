@@ -73,8 +73,11 @@ namespace talus
     // Sums over the ranks first: all ranks take part.
     const double n_rank_steps = n_ranks * progress.n_steps();
     const double messages = sum(sent.n_messages), bytes = sum(sent.n_bytes),
-                 nodes             = sum(sent.n_nodes),
-                 with_soil         = sum(sent.n_nodes_with_soil);
+                 nodes     = sum(sent.n_nodes),
+                 with_soil = sum(sent.n_nodes_with_soil);
+    // A resumed run may have nothing left to do.
+    if (!(points.sum > 0.))
+      return {};
     std::vector<std::string> lines = {
       text("Work: ",
            std::setprecision(4),
@@ -90,7 +93,7 @@ namespace talus
                            " of a rank per step, together ",
                            1e-3 * bytes / n_rank_steps,
                            " kB; nodes sent over ghosts with soil ",
-                           nodes / with_soil));
+                           with_soil > 0. ? nodes / with_soil : 0.));
     return lines;
   }
 } // namespace talus
