@@ -6,6 +6,9 @@
 #include <talus/io/raster_file.h>
 #include <talus/io/text_file.h>
 
+#include <deal.II/base/patterns.h>
+
+#include <optional>
 #include <regex>
 
 #include <gdal_priv.h>
@@ -22,9 +25,14 @@ namespace talus
     /// All polygons and lines of a GIS file.
     struct MapFeatures
     {
-      /// Each polygon is a list of rings, the outer one first.
-      std::vector<std::vector<Corners>> polygons;
-      std::vector<Corners>              lines;
+      struct Area
+      {
+        std::vector<Corners>  rings; ///< the outer one first
+        std::optional<double> number;
+      };
+
+      std::vector<Area>    polygons;
+      std::vector<Corners> lines;
       /// As Raster::coordinate_system.
       std::string coordinate_system;
     };
@@ -42,38 +50,59 @@ namespace talus
 
 
 
-    /// Append the polygons and lines of a geometry and its parts.
+    /// Append the polygons, with their @p number, and lines of a geometry and
+    /// its parts.
     void
-    collect(const OGRGeometry &geometry, MapFeatures &result)
+    collect(const OGRGeometry          &geometry,
+            const std::optional<double> number,
+            MapFeatures                &result)
     {
       if (wkbFlatten(geometry.getGeometryType()) == wkbPolygon)
         {
-          auto &polygon = result.polygons.emplace_back();
+          auto &polygon  = result.polygons.emplace_back();
+          polygon.number = number;
           for (const OGRLinearRing *ring : *geometry.toPolygon())
-            polygon.push_back(corners_of(*ring));
+            polygon.rings.push_back(corners_of(*ring));
         }
       else if (wkbFlatten(geometry.getGeometryType()) == wkbLineString)
         result.lines.push_back(corners_of(*geometry.toLineString()));
       else if (OGR_GT_IsSubClassOf(geometry.getGeometryType(),
                                    wkbGeometryCollection))
         for (const OGRGeometry *part : *geometry.toGeometryCollection())
-          collect(*part, result);
+          collect(*part, number, result);
+    }
+
+
+
+    /// Return the number in a field of a feature, if there is one.
+    std::optional<double>
+    number_of(const OGRFeature &feature, const int field)
+    {
+      if (field < 0 || !feature.IsFieldSetAndNotNull(field))
+        return {};
+      const std::string words = feature.GetFieldAsString(field);
+      return Patterns::Double().match(words)
+               ? std::optional<double>(feature.GetFieldAsDouble(field))
+               : std::nullopt;
     }
 
 
 
     /// Append the polygons and lines of a layer, curved edges as many short
-    /// edges. A layer with any of them sets the coordinate system.
+    /// edges, and the number of each polygon in the field @p attribute. A layer
+    /// with any of them sets the coordinate system.
     void
-    collect(OGRLayer &layer, MapFeatures &result)
+    collect(OGRLayer &layer, const std::string &attribute, MapFeatures &result)
     {
       const auto n = [&result]() {
         return result.polygons.size() + result.lines.size();
       };
       const std::size_t n_before = n();
+      const int field = layer.GetLayerDefn()->GetFieldIndex(attribute.c_str());
       for (const OGRFeatureUniquePtr &feature : layer)
         if (const OGRGeometry *geometry = feature->GetGeometryRef())
           collect(*std::unique_ptr<OGRGeometry>(geometry->getLinearGeometry()),
+                  number_of(*feature, field),
                   result);
       if (n() > n_before)
         result.coordinate_system = layer.GetSpatialRef() == nullptr
@@ -101,9 +130,11 @@ namespace talus
 
 
 
-    /// Read the polygons and lines of all layers of a file.
+    /// Read the polygons, with the numbers of an @p attribute, and lines of all
+    /// layers of a file.
     MapFeatures
-    read_features(const std::filesystem::path &path)
+    read_features(const std::filesystem::path &path,
+                  const std::string           &attribute = "")
     {
       const QuietGdal quiet;
       GDALAllRegister();
@@ -122,7 +153,7 @@ namespace talus
                          "(GeoJSON, shapefile, GeoPackage, KML).")));
       MapFeatures result;
       for (OGRLayer *layer : file->GetLayers())
-        collect(*layer, result);
+        collect(*layer, attribute, result);
       if (file->GetDriver()->GetDescription() == std::string("GeoJSON"))
         check_understood(name_in_geojson(path), name);
       // GDAL leaves out a system that it does not understand.
@@ -152,28 +183,38 @@ namespace talus
 
 
   MapCorners
-  read_outline(const std::filesystem::path &file)
+  read_outlines(const std::filesystem::path &file, const std::string &attribute)
   {
-    const MapFeatures found = read_features(file);
+    const MapFeatures found = read_features(file, attribute);
     const std::string name  = "The outline '" + file.string() + "' ";
-    AssertThrow(found.polygons.size() == 1,
-                ExcUser(text(name,
-                             "has ",
-                             found.polygons.size(),
-                             " polygons, where one was expected. Save one "
-                             "outline to a file of its own.")));
-    AssertThrow(found.polygons[0].size() == 1,
-                ExcUser(
-                  text(name,
-                       "has a polygon of ",
-                       found.polygons[0].size(),
-                       " rings, where one was expected: the outline, without "
-                       "holes. Remove the holes.")));
-    MapCorners outline{found.polygons[0][0], found.coordinate_system};
-    if (outline.corners.size() > 1 &&
-        outline.corners.front() == outline.corners.back())
-      outline.corners.pop_back();
-    return outline;
+    AssertThrow(!found.polygons.empty(),
+                ExcUser(name +
+                        "has no polygon, where one or more were expected. Save "
+                        "the release area as a polygon."));
+    MapCorners outlines{{}, {}, found.coordinate_system};
+    for (const auto &[rings, number] : found.polygons)
+      {
+        AssertThrow(rings.size() == 1,
+                    ExcUser(text(name,
+                                 "has a polygon of ",
+                                 rings.size(),
+                                 " rings, where one was expected: the outline, "
+                                 "without holes. Remove the holes.")));
+        AssertThrow(attribute.empty() || number.has_value(),
+                    ExcUser(text(name,
+                                 "has a polygon without a number in the field "
+                                 "'",
+                                 attribute,
+                                 "', where each polygon was expected to have "
+                                 "one. Correct the name of the field, or fill "
+                                 "it in.")));
+        auto &corners = outlines.parts.emplace_back(rings[0]);
+        if (corners.size() > 1 && corners.front() == corners.back())
+          corners.pop_back();
+        if (!attribute.empty())
+          outlines.numbers.push_back(*number);
+      }
+    return outlines;
   }
 
 
@@ -189,6 +230,6 @@ namespace talus
                              found.lines.size(),
                              " lines, where one was expected. Save one line to "
                              "a file of its own.")));
-    return {found.lines[0], found.coordinate_system};
+    return {{found.lines[0]}, {}, found.coordinate_system};
   }
 } // namespace talus

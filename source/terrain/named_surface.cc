@@ -35,9 +35,13 @@ namespace talus
                   "format that GDAL reads (GeoTIFF, Esri ASCII grid, netCDF as "
                   "GEBCO and GMT write it); in metres, or with a `Projection`. "
                   "In 3-D x is the easting and -z the northing, from "
-                  "'Grid/Origin' on. Or, 3-D only, the polygon of any file of "
-                  "vectors (GeoJSON, shapefile, GeoPackage, KML), as an "
-                  "`Outline`.");
+                  "'Grid/Origin' on. Or the polygons of any file of vectors "
+                  "(GeoJSON, shapefile, GeoPackage, KML), as an `Outline`.");
+    add_parameter("Attribute",
+                  attribute_,
+                  "Name of a number of each polygon of `File`, such as its "
+                  "depth: the surface has the number of the nearest polygon "
+                  "in place of the distance from the outline.");
     add_parameter("Projection",
                   projection_,
                   "Map in metres to which the file is projected on reading, "
@@ -53,24 +57,26 @@ namespace talus
                   "middle of the raster, measured on the map.",
                   this->prm,
                   Patterns::Double(0.));
-    add_parameter("Section",
-                  section_,
-                  "2-D only: corners of the line on the map along which the "
-                  "surface is cut, as easting,northing; easting,northing; "
-                  "... [m]. x is the length along the line, which extends "
-                  "straight beyond both ends.");
+    add_parameter(
+      "Section",
+      section_,
+      "2-D only: corners of the line on the map along which the "
+      "raster or the outline is cut, as easting,northing; easting,northing; "
+      "... [m]. x is the length along the line, which extends "
+      "straight beyond both ends.");
     add_parameter("Expression",
                   expression_,
                   "In place of a file: the height as an expression in x (, "
                   "z) and the surfaces listed before this surface [m].");
-    add_parameter("Outline",
-                  outline_,
-                  "3-D only, in place of a file: corners 'x, z; x, z; ...' of "
-                  "an area in plan [m]. The surface is as high as the place is "
-                  "distant from the outline [m], above zero inside and below "
-                  "zero outside: for expressions such as the slip surface "
-                  "'mudline - min(15, max(0, outline))' of a release area "
-                  "15 m deep, with sides of 45 degrees.");
+    add_parameter(
+      "Outline",
+      outline_,
+      "In place of a file: corners 'x, z; x, z; ...' of an area "
+      "in plan [m]; in 2-D on the map. The surface is as high as the place is "
+      "distant from the outline [m], above zero inside and below "
+      "zero outside: for expressions such as the slip surface "
+      "'mudline - min(15, max(0, outline))' of a release area "
+      "15 m deep, with sides of 45 degrees.");
     add_parameter("Coordinates",
                   coordinates_,
                   "'map': the corners of the outline are easting, northing.",
@@ -126,13 +132,14 @@ namespace talus
                                corners[i],
                                "' twice in a row. Remove one.")));
     AssertThrow(dim == 3 || corners.size() >= 2,
-                ExcUser(text(path("Section"),
-                             " = '",
-                             section_,
-                             "' is no line on the map, but in 2-D the raster '",
-                             file_,
-                             "' is cut along one. Give two corners or more, as "
-                             "easting,northing; easting,northing.")));
+                ExcUser(
+                  text(path("Section"),
+                       " = '",
+                       section_,
+                       "' is no line on the map, but in 2-D the ",
+                       file_.empty() ? "outline" : text("raster '", file_, "'"),
+                       " is cut along one. Give two corners or more, as "
+                       "easting,northing; easting,northing.")));
     if (dim == 2)
       check_section(path("Section"), corners);
     return corners;
@@ -187,53 +194,44 @@ namespace talus
 
 
 
-  template <>
-  std::shared_ptr<const Surface<2>>
-  NamedSurface<2>::read_outline(const std::filesystem::path & /*file*/,
-                                const Point<3> & /*origin*/) const
+  template <int dim>
+  std::shared_ptr<const Surface<dim>>
+  NamedSurface<dim>::read_outlines(const std::filesystem::path &file,
+                                   const Point<3>              &origin) const
   {
-    AssertThrow(false,
-                ExcUser(text(path(outline_.empty() ? "File" : "Outline"),
-                             " is the outline of an area in plan, but the "
-                             "simulation is two-dimensional. Limit the surface "
-                             "by an expression in x.")));
-    return nullptr;
-  }
-
-
-
-  template <>
-  std::shared_ptr<const Surface<3>>
-  NamedSurface<3>::read_outline(const std::filesystem::path &file,
-                                const Point<3>              &origin) const
-  {
-    const std::string     entry = "Surfaces/" + name_;
-    std::string           name  = "The outline in " + path("Outline");
-    std::vector<Point<2>> corners;
-    for (const auto &place : Utilities::split_string_list(outline_, ';'))
-      {
-        const Point<3> x = parse_plan_place<3>(
-          entry + "/Outline",
-          place,
-          PlaceCoordinates(entry, coordinates_, 3, origin).kind(),
-          origin);
-        corners.emplace_back(x[0], x[2]);
-      }
+    const std::string entry = "Surfaces/" + name_;
+    std::string       name  = "The outline in " + path("Outline");
+    MapCorners        outlines;
     if (outline_.empty())
       {
         protect_input(file);
-        name               = "The outline '" + file_ + "'";
-        MapCorners outline = talus::read_outline(file);
-        bring_to_map(outline.corners,
-                     outline.coordinate_system,
-                     map(),
-                     name,
-                     path("Projection"));
-        for (const Point<2> &corner : outline.corners)
-          corners.push_back(
-            PlaceCoordinates(PlanCoordinates::map, origin).in_plan(corner));
+        name     = "The outline '" + file_ + "'";
+        outlines = talus::read_outlines(file, attribute_);
+        for (auto &corners : outlines.parts)
+          bring_to_map(corners,
+                       outlines.coordinate_system,
+                       map(),
+                       name,
+                       path("Projection"));
       }
-    return std::make_shared<OutlineSurface>(name, corners);
+    else
+      {
+        auto &corners = outlines.parts.emplace_back();
+        for (const auto &place : Utilities::split_string_list(outline_, ';'))
+          {
+            const Point<3> x = parse_plan_place<3>(
+              entry + "/Outline",
+              place,
+              PlaceCoordinates(entry, coordinates_, 3, origin).kind(),
+              origin);
+            corners.emplace_back(origin[0] + x[0], origin[1] - x[2]);
+          }
+      }
+    return std::make_shared<OutlineSurface<dim>>(name,
+                                                 outlines.parts,
+                                                 outlines.numbers,
+                                                 PlanOnMap<dim>(origin,
+                                                                section()));
   }
 
 
@@ -251,6 +249,18 @@ namespace talus
                              n_given == 0 ? "none" : "more than one",
                              " of the entries `File`, `Expression` and "
                              "`Outline`. Give one of them.")));
+    AssertThrow(dim == 3 || outline_.empty() || coordinates_ == "map",
+                ExcUser(text(path("Outline"),
+                             " has corners x, z of the mesh, but a mesh in 2-D "
+                             "has no z. Give easting and northing, with ",
+                             path("Coordinates"),
+                             " = map.")));
+    AssertThrow(attribute_.empty() || !file_.empty(),
+                ExcUser(text(path("Attribute"),
+                             " is '",
+                             attribute_,
+                             "', a field of the polygons of a `File`, but "
+                             "there is none. Remove the entry.")));
     AssertThrow(coordinates_ == "mesh" || !outline_.empty(),
                 ExcUser(text(path("Coordinates"),
                              " is '",
@@ -313,15 +323,21 @@ namespace talus
                           const double                 cell_size) const
   {
     if (!outline_.empty() || is_outline_file(file(folder)))
-      return read_outline(file(folder), origin);
+      return read_outlines(file(folder), origin);
+    AssertThrow(attribute_.empty(),
+                ExcUser(text(path("Attribute"),
+                             " is '",
+                             attribute_,
+                             "', a field of polygons, but '",
+                             file_,
+                             "' is a raster. Remove the entry.")));
     const auto corners = section();
     Raster     raster = read_file(file(folder), plan_of(mesh, origin, corners));
     smooth(raster, cell_size);
     return std::make_shared<Terrain<dim>>(std::make_shared<const HeightField>(
                                             std::move(raster)),
                                           file_,
-                                          origin,
-                                          corners);
+                                          PlanOnMap<dim>(origin, corners));
   }
 
 

@@ -144,7 +144,7 @@ namespace talus
   {
     const NamedSurface<dim> *first = nullptr;
     for (const auto &named : named_)
-      if (named->has_file())
+      if (!named->is_expression())
         {
           AssertThrow(
             first == nullptr || named->section() == first->section(),
@@ -192,8 +192,9 @@ namespace talus
       return known->second.corners;
     const std::filesystem::path place = folder_ / file;
     protect_input(place);
-    MapCorners line = read_line(place);
-    bring_to_map(line.corners,
+    MapCorners line    = read_line(place);
+    auto      &corners = line.parts[0];
+    bring_to_map(corners,
                  line.coordinate_system,
                  map(),
                  path + ": the line of '" + file + "'",
@@ -201,8 +202,8 @@ namespace talus
     std::string name = "route " + file;
     std::replace(name.begin(), name.end(), '/', ' ');
     routes_[file] = {{name, "route", place, text(checksum_of_file(place))},
-                     line.corners};
-    return line.corners;
+                     corners};
+    return corners;
   }
 
 

@@ -2,53 +2,49 @@
 #ifndef talus_geometry_outline_surface_h
 #define talus_geometry_outline_surface_h
 
+#include <talus/geometry/plan_on_map.h>
 #include <talus/geometry/polygon.h>
 #include <talus/geometry/surface.h>
 
 namespace talus
 {
-  /// Distance from an outline in plan as a surface: inside of the outline the
-  /// height is the distance to the outline, m, outside minus the distance. With
-  /// the outline expressions describe limited areas, for instance a release
-  /// area with sides of 45 degrees, 15 m deep: "mudline - min(15, max(0,
-  /// outline))".
-  class OutlineSurface : public Surface<3>
+  /// Distance from outlines in plan as a surface: inside of an outline the
+  /// height is the distance to the outline, m, outside minus the distance to
+  /// the nearest one. With outlines expressions describe limited areas, for
+  /// instance a release area with sides of 45 degrees, 15 m deep: "mudline -
+  /// min(15, max(0, outline))". Or, if each outline has a number such as a
+  /// depth, the number of the nearest outline.
+  template <int dim>
+  class OutlineSurface : public Surface<dim>
   {
   public:
-    /// @p corners in the x-z plane of the mesh, m, in either sense. Throws
-    /// ExcUser, starting with @p name, if the outline intersects itself or has
-    /// no area.
-    OutlineSurface(const std::string                   &name,
-                   const std::vector<dealii::Point<2>> &corners)
-      : polygon_(name, corners)
-    {}
+    using typename Surface<dim>::Value;
+
+    /// @p outlines: corners on the map, easting and northing in m, in either
+    /// sense; areas should not overlap. @p numbers: one of each outline, or
+    /// none. Throws ExcUser, starting with @p name, if an outline intersects
+    /// itself or has no area.
+    OutlineSurface(const std::string                                &name,
+                   const std::vector<std::vector<dealii::Point<2>>> &outlines,
+                   const std::vector<double>                        &numbers,
+                   const PlanOnMap<dim>                             &plan);
 
     Value
-    at(const dealii::Point<3> &x) const override
-    {
-      const auto [distance, outwards] =
-        polygon_.distance_and_normal({x[0], x[2]});
-      Value value{-distance, {}};
-      value.slope[0] = -outwards[0];
-      value.slope[2] = -outwards[1];
-      return value;
-    }
+    at(const dealii::Point<dim> &x) const override;
 
     bool
-    is_known_at(const dealii::Point<3> & /*x*/) const override
+    is_known_at(const dealii::Point<dim> & /*x*/) const override
     {
       return true;
     }
 
     double
-    largest_change(const dealii::Point<3> & /*x*/,
-                   const double distance) const override
-    {
-      return distance;
-    }
+    largest_change(const dealii::Point<dim> &x, double distance) const override;
 
   private:
-    Polygon polygon_;
+    PlanOnMap<dim>       plan_;
+    std::vector<Polygon> polygons_; ///< from the origin of the plan on
+    std::vector<double>  numbers_;
   };
 } // namespace talus
 

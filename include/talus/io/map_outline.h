@@ -10,11 +10,13 @@
 
 namespace talus
 {
-  /// Corners of an area or a line in plan; the first corner of an area is not
-  /// repeated at the end.
+  /// Outlines of areas in plan, or a line.
   struct MapCorners
   {
-    std::vector<dealii::Point<2>> corners;
+    /// Corners of each; the first corner of an area is not repeated at the end.
+    std::vector<std::vector<dealii::Point<2>>> parts;
+    /// A number of each area.
+    std::vector<double> numbers;
     /// As Raster::coordinate_system.
     std::string coordinate_system;
   };
@@ -28,11 +30,13 @@ namespace talus
 
 
 
-  /// Read the polygon of any file of vectors that GDAL reads.
-  /// Throws ExcUser if @p file cannot be read, or contains no polygon, several
-  /// polygons, or a hole.
+  /// Read the polygons of any file of vectors that GDAL reads; with an
+  /// @p attribute, a number of each polygon, too. Throws ExcUser if @p file
+  /// cannot be read, contains no polygon, a hole, or a polygon without the
+  /// number.
   MapCorners
-  read_outline(const std::filesystem::path &file);
+  read_outlines(const std::filesystem::path &file,
+                const std::string           &attribute = "");
 
   /// Read the line of a file, in the formats of read_outline(). Throws ExcUser
   /// if @p file cannot be read, or contains no line or several lines.

@@ -99,11 +99,12 @@ namespace talus
     Raster
     read_file(const std::filesystem::path &file, const Box<2> &plan) const;
     std::shared_ptr<const Surface<dim>>
-    read_outline(const std::filesystem::path &file,
-                 const dealii::Point<3>      &origin) const;
+    read_outlines(const std::filesystem::path &file,
+                  const dealii::Point<3>      &origin) const;
 
     std::string name_;
     std::string file_        = "";
+    std::string attribute_   = "";
     std::string projection_  = "";
     double      cell_size_   = 0.;
     std::string section_     = "";

@@ -2,6 +2,7 @@
 """Errors that a user can do something about."""
 
 import argparse
+import math
 import sys
 
 
@@ -15,6 +16,14 @@ class Parser(argparse.ArgumentParser):
     def error(self, message):
         """Exit status 1 by run_tool() instead of argparse's 2, which is no sentence."""
         raise UserError(f"The options cannot be understood: {message}. See {self.prog} --help.")
+
+
+def positive(text):
+    """A finite number above zero."""
+    value = float(text)
+    if not 0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f"'{text}' is no number above 0")
+    return value
 
 
 def run_tool(name, main):

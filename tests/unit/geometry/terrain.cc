@@ -71,8 +71,10 @@ namespace
           const Point<3>              &origin = Point<3>(612000., 7123000., 0.),
           const std::vector<Point<2>> &section = {})
   {
-    return std::make_shared<Terrain<dim>>(
-      std::make_shared<const HeightField>(raster), "map.asc", origin, section);
+    return std::make_shared<Terrain<dim>>(std::make_shared<const HeightField>(
+                                            raster),
+                                          "map.asc",
+                                          PlanOnMap<dim>(origin, section));
   }
 
 

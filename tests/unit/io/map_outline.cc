@@ -29,7 +29,7 @@ namespace map_outline_test
     read(const std::string &text)
     {
       std::ofstream(file) << text;
-      return read_outline(file);
+      return read_outlines(file);
     }
 
     std::string
@@ -64,7 +64,7 @@ namespace map_outline_test
       {
         std::ofstream(file) << text;
         const MapCorners read = read_line(file);
-        EXPECT_EQ(read.corners,
+        EXPECT_EQ(read.parts[0],
                   (std::vector<Point<2>>{{15.1, 41.}, {15.2, 41.}}));
         EXPECT_EQ(map_unit(read.coordinate_system), MapUnit::degrees);
       }
@@ -86,9 +86,39 @@ namespace map_outline_test
                    "]]}")})
       {
         const MapCorners outline = read(text);
-        ASSERT_EQ(outline.corners.size(), 3u) << text;
-        EXPECT_EQ(outline.corners[1], Point<2>(15.2, 41.));
+        ASSERT_EQ(outline.parts[0].size(), 3u) << text;
+        EXPECT_EQ(outline.parts[0][1], Point<2>(15.2, 41.));
         EXPECT_EQ(map_unit(outline.coordinate_system), MapUnit::degrees);
+      }
+  }
+
+
+
+  TEST(Geojson, NumberOfEachPolygon)
+  {
+    const auto feature = [](const std::string &number) {
+      return R"({"type": "Feature", "properties": {"depth": )" + number +
+             R"(}, "geometry": )" + polygon(ring) + "}";
+    };
+    const auto collection = [](const std::string &all) {
+      return R"({"type": "FeatureCollection", "features": [)" + all + "]}";
+    };
+    std::ofstream(file) << collection(feature("2.5") + "," + feature("1e1"));
+    const MapCorners outlines = read_outlines(file, "depth");
+    EXPECT_EQ(outlines.parts.size(), 2u);
+    EXPECT_EQ(outlines.numbers, (std::vector<double>{2.5, 10.}));
+    EXPECT_TRUE(read_outlines(file).numbers.empty());
+    for (const std::string &bad :
+         {feature("2") + "," + feature("null"),
+          feature(R"("deep")"),
+          R"({"type": "Feature", "geometry": )" + polygon(ring) + "}"})
+      {
+        std::ofstream(file) << collection(bad);
+        EXPECT_NE(message_of<ExcUser>([&]() {
+                    read_outlines(file, "depth");
+                  }).find("a polygon without a number in the field 'depth'"),
+                  std::string::npos)
+          << bad;
       }
   }
 
@@ -117,10 +147,7 @@ namespace map_outline_test
     expect_refused("{", "cannot be read");
     expect_refused("{}", "cannot be read");
     expect_refused(features(R"({"type": "Point", "coordinates": [1, 2]})"),
-                   "has 0 polygons");
-    expect_refused(R"({"type": "MultiPolygon", "coordinates": [[)" + ring +
-                     "], [" + ring + "]]}",
-                   "has 2 polygons");
+                   "has no polygon");
     expect_refused(polygon(ring + ", " + ring), "2 rings");
     expect_refused(polygon(R"([[1, "a"], [2, 3]])"), "cannot be read");
     expect_refused(polygon("[[1], [2, 3]]"), "cannot be read");
@@ -228,13 +255,13 @@ namespace map_outline_test
     for (const std::string name : {"area.kml", "area.shp"})
       {
         EXPECT_TRUE(is_outline_file(name)) << name;
-        const MapCorners outline = read_outline(name);
-        EXPECT_EQ(outline.corners, triangle) << name;
+        const MapCorners outline = read_outlines(name);
+        EXPECT_EQ(outline.parts[0], triangle) << name;
         EXPECT_EQ(map_unit(outline.coordinate_system), MapUnit::degrees)
           << name;
       }
     write_shapefile("area.shp", 1, "");
-    EXPECT_EQ(read_outline("area.shp").coordinate_system, "");
+    EXPECT_EQ(read_outlines("area.shp").coordinate_system, "");
     std::ofstream("area.asc")
       << "ncols 1\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n5\n";
     EXPECT_FALSE(is_outline_file("area.asc"));
@@ -250,27 +277,26 @@ namespace map_outline_test
          "<LineString><coordinates>15.1,41,0 15.2,41.1,0</coordinates>"
          "</LineString></Placemark></Document></kml>";
     const MapCorners line = read_line("route.kml");
-    EXPECT_EQ(line.corners, (std::vector<Point<2>>{{15.1, 41.}, {15.2, 41.1}}));
+    EXPECT_EQ(line.parts[0],
+              (std::vector<Point<2>>{{15.1, 41.}, {15.2, 41.1}}));
     EXPECT_EQ(map_unit(line.coordinate_system), MapUnit::degrees);
   }
 
 
 
-  TEST(MapOutline, RefusesSeveralPolygonsAndHoles)
+  TEST(MapOutline, RefusesHoles)
   {
     const auto expect_refused_file = [](const std::string &name,
                                         const std::string &words) {
       const std::string message =
-        message_of<ExcUser>([&]() { read_outline(name); });
+        message_of<ExcUser>([&]() { read_outlines(name); });
       EXPECT_NE(message.find(words), std::string::npos) << message;
     };
-    write_shapefile("area.shp", 2, wgs_84_words);
-    expect_refused_file("area.shp", "has 2 polygons, where one");
     write_shapefile("area.shp", 1, "What is this?");
     expect_refused_file("area.shp",
                         "area.prj' has the coordinate system 'What is this?'");
     write_shapefile("area.shp", 0, wgs_84_words);
-    expect_refused_file("area.shp", "has 0 polygons");
+    expect_refused_file("area.shp", "has no polygon");
     std::ofstream("area.kml") << kml(
       "<innerBoundaryIs><LinearRing><coordinates>15.11,41.01 15.11,41.02 "
       "15.12,41.01 15.11,41.01</coordinates></LinearRing>"

@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The command line of talus-tsunami."""
 
-import argparse
-import math
 import os
 
-from talus_tools.errors import Parser, UserError
+from talus_tools.errors import Parser, UserError, positive
 from talus_tools.results import Results
 from talus_tools.tsunami.motion import blocks_of, motion_of
 from talus_tools.tsunami.write import rows_of_table, write_dtopo, write_netcdf, write_table
@@ -13,14 +11,6 @@ from talus_tools.tsunami.write import rows_of_table, write_dtopo, write_netcdf, 
 DESCRIPTION = """Write the change of the height of the sea floor in time as the source of a tsunami
 model: tsunami-source.tt3 (GeoClaw's dtopo, type 3) and tsunami-source.csv. The run needs
 'Output/Plan interval'; see doc/tsunami.md."""
-
-
-def positive(text):
-    """A finite number above zero."""
-    value = float(text)
-    if not 0 < value < math.inf:
-        raise argparse.ArgumentTypeError(f"'{text}' is no number above 0")
-    return value
 
 
 def options_of_user():
