@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
 #include <talus/problem/loading.h>
 
 #include <deal.II/base/numbers.h>
@@ -32,6 +33,12 @@ namespace talus
                   "gravity from the start.",
                   this->prm,
                   Patterns::Double(0.));
+    add_parameter("Horizontal coefficient",
+                  horizontal_coefficient,
+                  "Pseudo-static horizontal acceleration k_h of the whole mass "
+                  "over gravity [-], as of an earthquake: a number along x, or "
+                  "in 3-D two along x and z. Acts in the static stages, not in "
+                  "the slide. Empty: none.");
   }
 
 
@@ -115,6 +122,12 @@ namespace talus
                         const double          end_time)
   {
     ground_motion_.prepare(end_time);
+    AssertThrow(gravity_.horizontal_coefficient.size() < dim,
+                ExcUser(text("'Gravity/Horizontal coefficient' has ",
+                             gravity_.horizontal_coefficient.size(),
+                             " numbers, where at most ",
+                             dim - 1,
+                             " were expected. Remove the others.")));
     full_.clear();
     for (unsigned int b = 0; b < n_bodies; ++b)
       full_.push_back(materials.of_body(b).submerged_density() /
@@ -130,15 +143,36 @@ namespace talus
 
 
 
+  template <int dim>
+  Tensor<1, dim>
+  Loading<dim>::pseudo_static_acceleration() const
+  {
+    std::vector<double> k = gravity_.horizontal_coefficient;
+    k.resize(2);
+    const double   angle = slope_angle();
+    Tensor<1, dim> acceleration;
+    acceleration[0] = gravity_.magnitude * k[0] * std::cos(angle);
+    acceleration[1] = gravity_.magnitude * k[0] * std::sin(angle);
+    if (dim == 3)
+      acceleration[dim - 1] = gravity_.magnitude * k[1];
+    return acceleration;
+  }
+
+
+
   /// Accelerations at time @p t for all points. A vector per body suffices if
   /// they do not vary in space; only a body force needs a row per point.
   template <int dim>
   void
-  Loading<dim>::update(const Points<dim> &points, const double t)
+  Loading<dim>::update(const Points<dim> &points,
+                       const double       t,
+                       const bool         is_static)
   {
     // The inertia of the whole mass resists, not of the submerged mass.
-    const Tensor<1, dim> ground = ground_motion_.acceleration(t, slope_angle());
-    const double         share  = share_of_gravity(t);
+    Tensor<1, dim> ground = ground_motion_.acceleration(t, slope_angle());
+    if (is_static)
+      ground -= pseudo_static_acceleration();
+    const double share = share_of_gravity(t);
     for (unsigned int b = 0; b < full_.size(); ++b)
       loads_.acceleration_of_body[b] = share * full_[b] - ground;
     if (!loads_.varies)

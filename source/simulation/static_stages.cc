@@ -167,7 +167,7 @@ namespace talus
   StaticProblem<dim>
   StaticStages<dim>::problem()
   {
-    problem_.loading.update(state_.points, state_.time);
+    problem_.loading.update(state_.points, state_.time, true);
     return {state_,
             transfer_,
             problem_.materials,

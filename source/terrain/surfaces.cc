@@ -265,8 +265,8 @@ namespace talus
         Point<dim>          begin, end;
         begin[0] = from;
         end[0]   = to;
-        if (!named_[k]->has_file() || !surface.is_known_at(begin) ||
-            !surface.is_known_at(end))
+        if (raster(named_[k]->name()) == nullptr ||
+            !surface.is_known_at(begin) || !surface.is_known_at(end))
           continue;
         const double first = surface.at(begin).height,
                      last  = surface.at(end).height;

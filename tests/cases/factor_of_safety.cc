@@ -82,6 +82,31 @@ TEST(InfiniteSlope, FactorOfSafetyBelowOne)
 
 
 
+// Earthquakes move the whole mass, under water the weight is of less.
+TEST(InfiniteSlope, HorizontalCoefficient)
+{
+  constexpr double k = 0.1, share = 0.4, h = 0.05; // -, -, m
+  Verification     gates("Infinite slope of 20 degrees under water, k_h = 0.1",
+                     "prm/verification/infinite-slope.prm",
+                     "s_u/(H g (rho' sin + k_h rho cos))");
+  const StaticCase<2> slope("verification/infinite-slope.prm",
+                            "infinite-slope-horizontal",
+                            {text("Grid/Cell size=", h),
+                             text("Grid/Upper corner=", 2 * h, ", 5.1"),
+                             text("Bodies/layer/Upper corner=", 2 * h, ", 5"),
+                             text("Materials/clay/Submerged density=",
+                                  1000. * share),
+                             text("Gravity/Horizontal coefficient=", k),
+                             "Strength reduction/Tolerance=1e-4"});
+  const double        tangent = std::tan(20. * M_PI / 180.);
+  gates.near("factor of safety",
+             slope.factor_of_safety(),
+             1.5 * tangent / (share * tangent + k),
+             0.01);
+}
+
+
+
 // A weak layer of 3 m on a stronger one: the weak one fails where it ends.
 TEST(InfiniteSlope, TwoLayersBelowOne)
 {

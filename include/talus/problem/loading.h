@@ -13,6 +13,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace talus
 {
@@ -33,9 +34,10 @@ namespace talus
             const Constants      &constants,
             double                end_time);
 
-    /// Set the accelerations at time @p t, s. Call before loads().
+    /// Set the accelerations at time @p t, s, of a static stage or of the slide.
+    /// Call before loads().
     void
-    update(const Points<dim> &points, double t);
+    update(const Points<dim> &points, double t, bool is_static = false);
 
     const Loads<dim> &
     loads() const
@@ -79,6 +81,8 @@ namespace talus
       double magnitude   = 9.81;
       double slope_angle = 0.;
       double ramp_time   = 0.;
+
+      std::vector<double> horizontal_coefficient;
     };
 
     struct BodyForce : public dealii::ParameterAcceptor
@@ -90,6 +94,8 @@ namespace talus
 
     double
     slope_angle() const; // radians
+    dealii::Tensor<1, dim>
+    pseudo_static_acceleration() const; // of the whole mass, m/s^2
 
     Gravity                          gravity_;
     BodyForce                        body_force_;

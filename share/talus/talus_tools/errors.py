@@ -26,6 +26,14 @@ def positive(text):
     return value
 
 
+def number_of(text):
+    """A finite number, not below zero."""
+    value = float(text)
+    if not 0 <= value < math.inf:
+        raise argparse.ArgumentTypeError(f"'{text}' is no number of 0 or above")
+    return value
+
+
 def run_tool(name, main):
     """Run main() and return the exit status; a UserError becomes its sentence."""
     for stream in (sys.stdout, sys.stderr):

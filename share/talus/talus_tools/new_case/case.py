@@ -10,7 +10,7 @@ from talus_tools.new_case.path import GRAVITY, lengths, place_at, simplified, st
 from talus_tools.new_case.release import GENTLEST_SIDE, STEEPEST_SIDE
 from talus_tools.new_case.terrain import read_sea_floor
 
-CELLS_ACROSS = {2: 6, 3: 1.2}  # the thickness of the release: a first, coarse run
+CELLS_ACROSS = {2: 4, 3: 1.2}  # the thickness of the release: a first, coarse run
 ROUND = (1, 1.2, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10)
 N_STATIONS = 4
 MOST_LIP = 0.05  # rise of the bed downslope, over the depth

@@ -29,7 +29,7 @@ def options_of_user():
     parser.add_argument("--name", help="of the case, instead of that of the polygon")
     parser.add_argument("--output", metavar="FOLDER", default=".", help="folder of the files")
     for name, default, words in (
-            ("--cells", None, "cells across the depth, instead of 1.2 (section: 6)"),
+            ("--cells", None, "cells across the depth, instead of 1.2 (section: 4)"),
             ("--cell-size", None, "size of the cells in 3-D [m]"),
             ("--sides", None, "rise of the sides of the release, height over length; by default "
              "0.2, and less towards the toe, so that the bed does not rise downslope"),

@@ -71,8 +71,8 @@ class Mesh:
         return self.plan[0][0], self.plan[1][1]
 
 
-def slip_of(case, mesh):
-    """Expression of the slip surface."""
+def pocket_of(case, mesh):
+    """Expression of the depth of the slip surface."""
     release = case.release
     depth = "depth_of_release" if release.field else plain(release.depth)
     parts = [depth, f"{case.sides:g}*max(0, release)"]
@@ -85,7 +85,7 @@ def slip_of(case, mesh):
             down, (east, north) = case.down(), mesh.origin()
             start = case.before_toe([(east, north)])[0]
             parts.append(f"{case.toe:g}*max(0, {start:.1f} {-down[0]:+.4f}*x {down[1]:+.4f}*z)")
-    return f"mudline - min({', '.join(parts)})"
+    return f"min({', '.join(parts)})"
 
 
 def surfaces(case, mesh, folder):
@@ -97,7 +97,9 @@ def surfaces(case, mesh, folder):
     release_map = ("" if release.is_on_map and own
                    else f"\n    set Projection = {words_of(case.code)}")
     raster, area = (os.path.relpath(path, folder) for path in (case.raster.path, release.path))
-    names = "mudline, release, " + ("depth_of_release, " if release.field else "") + "slip"
+    names = ("mudline, release, " + ("depth_of_release, " if release.field else "")
+             + "pocket, slip")
+    rise = "; rise towards the toe" if case.toe else ""
     depth = f"""
   subsection depth_of_release   # the number of each polygon
     set File       = {area}{release_map}{section}
@@ -111,8 +113,11 @@ def surfaces(case, mesh, folder):
   subsection release            # distance from the outline, positive inside [m]
     set File       = {area}{release_map}{section}
   end{depth}
-  subsection slip               # depth; rise of the sides{'; rise towards the toe' if case.toe else ''}
-    set Expression = {slip_of(case, mesh)}
+  subsection pocket             # depth; rise of the sides{rise}
+    set Expression = {pocket_of(case, mesh)}
+  end
+  subsection slip
+    set Expression = mudline - pocket
   end
 end"""
 
