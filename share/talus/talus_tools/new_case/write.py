@@ -124,7 +124,7 @@ end"""
 
 def corners_of_body(case, mesh):
     """Where the layer ends in plan: around the release area."""
-    margin = 4 * mesh.cell
+    margin = 4 * mesh.cell + case.floor.cell  # places of the path are a cell of it apart
     if mesh.dim == 2:
         way = lengths(case.path)
         x = [d for d, place in zip(way, case.path) if case.release.inside(place)[0] > 0]
@@ -260,6 +260,10 @@ end
 
 subsection Transfer
   set Scheme = filtered FLIP
+end
+
+subsection Splitting
+  set Threshold = 2
 end
 
 {along(case, mesh)}
