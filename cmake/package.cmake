@@ -98,8 +98,9 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
 in 3-D, from equilibrium and factor of safety to the run-out, with obstacles.
 Tools write reports (talus-report), comparisons (talus-compare) and films
 (talus-animate), run studies (talus-study), fit parameters to an observed deposit
-(talus-calibrate), compute the response of a pipeline (talus-pipe), and write the
-source of a tsunami model (talus-tsunami).")
+(talus-calibrate), compute the response of a pipeline (talus-pipe), write the
+source of a tsunami model (talus-tsunami), begin a case from a raster (talus-new),
+and find slopes that may fail (talus-screen).")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 "Headers and the files of CMake for programs that lead runs or have constitutive
 laws of their own, and an example of such a program.")

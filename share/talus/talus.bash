@@ -26,8 +26,13 @@ _talus_tool()
     talus-animate) options='--output --fps --most' ;;
     talus-calibrate) options='--output --program' reads_file=yes ;;
     talus-compare) options='--output' ;;
+    talus-new) options='--name --output --cells --cell-size --sides --reach --strength-ratio
+      --strength-at-mudline --sensitivity --bed-shear-stress --density --water-density'
+      reads_file=any ;;
     talus-pipe) options='--output' reads_file=yes ;;
     talus-report) options='--slab --weak-layer' ;;
+    talus-screen) options='--depths --strength --horizontal --density --water-density --length
+      --output' reads_file=any ;;
     talus-tsunami)
       options='--interval --start-time --width --water-depth --degrees --netcdf --output' ;;
     talus-study) options='--output --program --at-once --list --member --collect' reads_file=yes ;;
@@ -37,8 +42,11 @@ _talus_tool()
     --output|--program)
       mapfile -t COMPREPLY < <(compgen -f -- "$word")
       return ;;
-    # Numbers, and names of bodies.
-    --fps|--most|--at-once|--member|--slab|--weak-layer|--interval|--start-time|--width|--water-depth)
+    # Numbers, and names.
+    --fps|--most|--at-once|--member|--slab|--weak-layer|--interval|--start-time|--width|--water-depth|\
+      --name|--cells|--cell-size|--sides|--reach|--strength-ratio|--strength-at-mudline|\
+      --sensitivity|--bed-shear-stress|--density|--water-density|--depths|--strength|\
+      --horizontal|--length)
       return ;;
   esac
   if [[ $word == -* ]]; then
@@ -46,9 +54,10 @@ _talus_tool()
     return
   fi
   mapfile -t COMPREPLY < <(compgen -d -- "$word")
-  if [[ $reads_file ]]; then
-    mapfile -t -O ${#COMPREPLY[@]} COMPREPLY < <(compgen -f -X '!*.prm' -- "$word")
-  fi
+  case $reads_file in
+    any) mapfile -t COMPREPLY < <(compgen -f -- "$word") ;;
+    yes) mapfile -t -O ${#COMPREPLY[@]} COMPREPLY < <(compgen -f -X '!*.prm' -- "$word") ;;
+  esac
 }
 complete -o filenames -F _talus_tool talus-animate talus-calibrate talus-compare \
-  talus-pipe talus-report talus-study talus-tsunami
+  talus-new talus-pipe talus-report talus-screen talus-study talus-tsunami

@@ -10,18 +10,6 @@ namespace talus
 
   namespace
   {
-    template <int dim>
-    Tensor<2, dim>
-    edges_of(const Points<dim> &points, const unsigned int p)
-    {
-      Tensor<2, dim> A;
-      for (unsigned int k = 0; k < dim; ++k)
-        A[k] = edge_of_cell(points, k, p);
-      return transpose(A);
-    }
-
-
-
     /// Return edges of the lattice with the edges @p B that are near the edges
     /// @p A. Neighbours may have reduced their edges at different times.
     template <int dim>
@@ -58,11 +46,11 @@ namespace talus
   JointCell<dim>::JointCell(const Points<dim> &points,
                             const unsigned int p,
                             const unsigned int q)
-    : edges_(edges_of(points, p))
+    : edges_(load_edges(points, p))
     , offset_(load_vector(points, points.position, q) -
               load_vector(points, points.position, p))
   {
-    const Tensor<2, dim> A = edges_, B = matched(edges_of(points, q), A);
+    const Tensor<2, dim> A = edges_, B = matched(load_edges(points, q), A);
     const double *const  m = points.data(points.mass);
     const double         w = mass_share_ = m[p] / (m[p] + m[q]);
     moment_ = w * A * transpose(A) + (1. - w) * B * transpose(B) +

@@ -329,11 +329,20 @@ namespace talus
   void
   ExplicitScheme<dim>::reduce_edges(const Batch &batch)
   {
-    const std::function<bool(unsigned int)> is_in_film =
-      [this](const unsigned int p) {
-        return is_film(state_.grid.cells()[state_.points.cell_of(p)],
-                       state_.nodes);
-      };
+    // Points of a segment ask one after the other.
+    const Segment           *known = nullptr;
+    std::optional<Film<dim>> film;
+    const auto               film_at = [&](const unsigned int p) {
+      const Segment &segment = state_.points.segment_of(p);
+      if (known != &segment)
+        {
+          known = &segment;
+          film  = std::nullopt;
+          if (is_film(state_.grid.cells()[segment.cell], state_.nodes))
+            film = film_of(state_.points, segment.begin, segment.end);
+        }
+      return film;
+    };
     problem_.materials.for_each_material_range(
       state_.points,
       batch,
@@ -341,11 +350,11 @@ namespace talus
           const unsigned int        begin,
           const unsigned int        end) {
         if (!model.is_hyperelastic())
-          talus::reduce_edges(state_.points,
-                              begin,
-                              end,
-                              transfer_.box_shape().counts_shear,
-                              is_in_film);
+          talus::reduce_edges<dim>(state_.points,
+                                   begin,
+                                   end,
+                                   transfer_.box_shape().counts_shear,
+                                   film_at);
       });
   }
 

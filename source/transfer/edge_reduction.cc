@@ -21,12 +21,16 @@ namespace talus
     constexpr double min_growth = 1.15;
 
     // An edge is shortened along other edges only if each has at least this
-    // fraction of its length, in a film all of its length. A film of soil one
-    // point thick has neighbours along the film and none across: a long edge
-    // along the film stands for soil that must be split. In 3-D a larger
-    // fraction would keep many cells of general shear long, and split them.
+    // fraction of its length. In 3-D a larger fraction would keep many cells of
+    // general shear long, and split them.
     template <int dim>
     constexpr double min_ratio = (dim == 2 ? 0.5 : 0.3);
+
+    // A film of soil one point thick has neighbours along the film and none
+    // across: a long edge along the film stands for soil that must be split. An
+    // edge is shortened by a vector that goes through this part of the film or
+    // less.
+    constexpr double largest_share = 0.5;
 
     // Growth beyond which the edge is shortened along edges of any length. The
     // splitter has a limit and could not halve the edge.
@@ -88,8 +92,8 @@ namespace talus
       /// Squares of lengths: of the edges, of edges that may be shortened, and
       /// of edges that must be shortened, m^2.
       std::array<Number, dim> square, may_shorten, must_shorten;
-      /// Square of the least ratio of another edge to an edge to be shortened.
-      double ratio_square = min_ratio<dim> * min_ratio<dim>;
+      /// Film in which the point lies.
+      std::optional<Film<dim>> film;
 
       TALUS_ALWAYS_INLINE
       Edges(const PointsView<dim> &points,
@@ -136,8 +140,31 @@ namespace talus
           if (shift[j] != 0)
             shortest = min(shortest, square[j]);
         return (along * along > limit * limit) & (square[k] > may_shorten[k]) &
-               ((shortest > ratio_square * square[k]) |
+               ((shortest > min_ratio<dim> * min_ratio<dim> * square[k]) |
                 (square[k] > must_shorten[k]));
+      }
+
+      /// Multiple of the vector of @p shift by which edge @p k is shortened.
+      Number
+      multiple(const unsigned int k, const Shift<dim> &shift) const
+      {
+        const auto v = combination(shift);
+        return std::round(product<dim, Number>(edge[k], v) /
+                          product<dim, Number>(v, v));
+      }
+
+      /// Whether edge @p k may be shortened along @p shift in a film.
+      bool
+      stays_in_film(const unsigned int k, const Shift<dim> &shift) const
+      {
+        if (!film || square[k] > must_shorten[k])
+          return true;
+        const auto v      = combination(shift);
+        Number     across = 0.;
+        for (unsigned int i = 0; i < dim; ++i)
+          across += film->normal[i] * v[i];
+        return std::abs(multiple(k, shift) * across) <=
+               largest_share * film->thickness;
       }
 
       /// Shorten edge @p k along @p shift as far as possible.
@@ -145,8 +172,7 @@ namespace talus
       shorten(const unsigned int k, const Shift<dim> &shift)
       {
         const auto   v = combination(shift);
-        const Number m = std::round(product<dim, Number>(edge[k], v) /
-                                    product<dim, Number>(v, v));
+        const Number m = multiple(k, shift);
         for (unsigned int i = 0; i < dim; ++i)
           edge[k][i] -= m * v[i];
         square[k] = product<dim, Number>(edge[k], edge[k]);
@@ -187,7 +213,8 @@ namespace talus
       Shift<dim>   along;
       for_each_shift<dim>([&](const unsigned int k, const auto &shift) {
         const double of_k = edges.square[k] / edges.must_shorten[k];
-        if (!edges.is_long(k, shift) || of_k <= (1. + 1e-9) * growth)
+        if (!edges.is_long(k, shift) || !edges.stays_in_film(k, shift) ||
+            of_k <= (1. + 1e-9) * growth)
           return;
         shortened = k;
         growth    = of_k;
@@ -206,12 +233,8 @@ namespace talus
     void
     reduce(const PointsView<dim> &points,
            const unsigned int     p,
-           const bool             counts_shear,
-           const bool             is_in_film)
+           Edges<dim, double>    &edges)
     {
-      Edges<dim, double> edges(points, p, counts_shear);
-      if (is_in_film)
-        edges.ratio_square = 1.;
       for (unsigned int k; (k = shorten_one(edges)) != dim;)
         for (unsigned int i = 0; i < dim; ++i)
           points.data(points.edges, dim * i + k)[p] = edges.edge[k][i];
@@ -224,11 +247,12 @@ namespace talus
   // edges of several points at a time, in a fast pass over data in the cache.
   template <int dim>
   void
-  reduce_edges(Points<dim>                             &points,
-               const unsigned int                       begin,
-               const unsigned int                       end,
-               const bool                               counts_shear,
-               const std::function<bool(unsigned int)> &is_in_film)
+  reduce_edges(
+    Points<dim>                                                 &points,
+    const unsigned int                                           begin,
+    const unsigned int                                           end,
+    const bool                                                   counts_shear,
+    const std::function<std::optional<Film<dim>>(unsigned int)> &film_at)
   {
     const auto columns = points.view();
     bool       found   = false;
@@ -236,9 +260,16 @@ namespace talus
       begin, end, [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
         found |= any_is_long<dim, decltype(number)>(columns, p, counts_shear);
       });
-    if (found)
-      for (unsigned int p = begin; p < end; ++p)
-        reduce(columns, p, counts_shear, is_in_film && is_in_film(p));
+    if (!found)
+      return;
+    for (unsigned int p = begin; p < end; ++p)
+      if (any_is_long<dim, double>(columns, p, counts_shear))
+        {
+          Edges<dim, double> edges(columns, p, counts_shear);
+          if (film_at)
+            edges.film = film_at(p);
+          reduce(columns, p, edges);
+        }
   }
 
 

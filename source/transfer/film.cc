@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/points/points_kernel.h>
 #include <talus/transfer/film.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace talus
 {
@@ -11,6 +17,36 @@ namespace talus
     // film, whatever the round-off.
     constexpr double film_thickness = 1.1;
   } // namespace
+
+
+
+  template <int dim>
+  Film<dim>
+  film_of(const Points<dim> &points,
+          const unsigned int begin,
+          const unsigned int end)
+  {
+    double                  volume = 0;
+    Tensor<1, dim>          first;
+    SymmetricTensor<2, dim> second;
+    const Point<dim>        origin = load_place(points, points.position, begin);
+    for (unsigned int p = begin; p < end; ++p)
+      {
+        const double         V = points.data(points.reference_volume)[p];
+        const Tensor<1, dim> d =
+          load_place(points, points.position, p) - origin;
+        const Tensor<2, dim> A = load_edges(points, p);
+        volume += V;
+        first += V * d;
+        second += V * symmetrize(outer_product(d, d) + A * transpose(A) / 12.);
+      }
+    first /= volume;
+    const auto spread =
+      eigenvectors(second / volume - symmetrize(outer_product(first, first)),
+                   SymmetricTensorEigenvectorMethod::jacobi);
+    const auto &[least, normal] = spread[dim - 1];
+    return {normal, std::sqrt(12. * std::max(0., least))};
+  }
 
 
 
@@ -51,6 +87,8 @@ namespace talus
 
 
 
+  template decltype(film_of<2>)     film_of<2>;
+  template decltype(film_of<3>)     film_of<3>;
   template decltype(is_film<2>)     is_film<2>;
   template decltype(is_film<3>)     is_film<3>;
   template decltype(sum_volumes<2>) sum_volumes<2>;

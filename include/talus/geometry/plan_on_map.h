@@ -9,7 +9,7 @@
 
 namespace talus
 {
-  /// Where a place of the mesh lies on the map. In 3-D, x is the easting and -z
+  /// Map of the plan of the mesh. In 3-D, x is the easting and -z
   /// the northing: x, y (up) and z are right-handed, and z points south. In 2-D
   /// x is the length along a line on the map, which extends straight beyond
   /// both ends.

@@ -224,9 +224,9 @@ namespace talus
       return {0, static_cast<unsigned int>(segments_.size()), 0, n_sorted()};
     }
 
-    /// Return the cell of a sorted point.
-    unsigned int
-    cell_of(const unsigned int p) const
+    /// Return the segment of a sorted point.
+    const Segment &
+    segment_of(const unsigned int p) const
     {
       const auto behind =
         std::upper_bound(segments_.begin(),
@@ -235,7 +235,14 @@ namespace talus
                          [](const unsigned int q, const Segment &segment) {
                            return q < segment.begin;
                          });
-      return (behind - 1)->cell;
+      return *(behind - 1);
+    }
+
+    /// Return the cell of a sorted point.
+    unsigned int
+    cell_of(const unsigned int p) const
+    {
+      return segment_of(p).cell;
     }
 
     /// Number of points in a batch, not counting the rest of the last cell.
@@ -354,6 +361,19 @@ namespace talus
     for (unsigned int d = 0; d < dim; ++d)
       v[d] = points.data(column, d)[p];
     return v;
+  }
+
+
+
+  /// Return the edges of the cell of point @p p as columns of a tensor, m.
+  template <int dim>
+  inline dealii::Tensor<2, dim>
+  load_edges(const Points<dim> &points, const unsigned int p)
+  {
+    dealii::Tensor<2, dim> A;
+    for (unsigned int c = 0; c < dim * dim; ++c)
+      A[c / dim][c % dim] = points.data(points.edges, c)[p];
+    return A;
   }
 
 

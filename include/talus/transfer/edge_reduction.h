@@ -3,8 +3,10 @@
 #define talus_transfer_edge_reduction_h
 
 #include <talus/points/points.h>
+#include <talus/transfer/film.h>
 
 #include <functional>
+#include <optional>
 
 namespace talus
 {
@@ -22,15 +24,17 @@ namespace talus
   ///
   /// @param counts_shear if true, only edges 1000 times as long as at creation
   ///   are replaced: the determinant, the volume, would lose its digits.
-  /// @param is_in_film Whether a point lies in a film, is_film(): there edges
-  ///   are shortened only along longer edges. Empty: no point does.
+  /// @param film_at the film in which a point lies, if it does: there an edge
+  ///   is shortened only to where half of the film or more has neighbours.
+  ///   Empty: no point does.
   template <int dim>
   void
-  reduce_edges(Points<dim>                             &points,
-               unsigned int                             begin,
-               unsigned int                             end,
-               bool                                     counts_shear,
-               const std::function<bool(unsigned int)> &is_in_film = {});
+  reduce_edges(
+    Points<dim>                                                 &points,
+    unsigned int                                                 begin,
+    unsigned int                                                 end,
+    bool                                                         counts_shear,
+    const std::function<std::optional<Film<dim>>(unsigned int)> &film_at = {});
 } // namespace talus
 
 #endif

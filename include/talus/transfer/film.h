@@ -7,6 +7,21 @@
 
 namespace talus
 {
+  /// Plate with the second moments of soil.
+  template <int dim>
+  struct Film
+  {
+    dealii::Tensor<1, dim> normal;    ///< unit vector across
+    double                 thickness; ///< m
+  };
+
+  /// Return the plate that the cells of the sorted points [begin, end) form:
+  /// normal to the direction in which they spread least about their centre. A
+  /// film of n points one above the other is n points thick.
+  template <int dim>
+  Film<dim>
+  film_of(const Points<dim> &points, unsigned int begin, unsigned int end);
+
   /// Return whether the soil in a cell and around it is a film, thinner than
   /// 1.1 times the cell. The volumes of soil must be known at the nodes of the
   /// cell, see NodalFields::share_volumes() and sum_volumes().

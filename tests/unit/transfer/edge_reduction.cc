@@ -79,23 +79,96 @@ namespace
 
 
 
-  // A long edge along the film stays, to be split; otherwise the short edge
-  // across the film would make it compact, and leave a gap in the film.
+  // In a film one point thick a long edge along the film stays, to be split:
+  // the short edge across the film would make it compact, and leave a gap. Two
+  // and more points above each other have neighbours across.
   TEST(EdgeReduction, AFilmKeepsItsLongEdges)
   {
     const Tensor<2, 2> start({{0.3, 0.}, {0., 0.2}}),
       stretched({{0.35, 0.}, {0.2, 0.22}});
-    for (const bool is_film : {false, true})
+    for (const double thickness : {0., 0.2, 0.43, 0.45})
       {
         Core<2>            core(cube<2>());
         const unsigned int p = add_cell<2>(core, start, stretched);
-        reduce_edges(core.points, 0, 1, false, [&](const unsigned int) {
-          return is_film;
+        reduce_edges<2>(core.points, 0, 1, false, [&](const unsigned int) {
+          return thickness > 0. ? std::make_optional(
+                                    Film<2>{Tensor<1, 2>({0., 1.}), thickness})
+                                : std::nullopt;
         });
         const Tensor<2, 2> reduced = core.edges(p);
         EXPECT_NEAR(determinant(reduced), determinant(stretched), 1e-15);
-        EXPECT_EQ(reduced == stretched, is_film);
+        EXPECT_EQ(reduced == stretched, thickness > 0. && thickness < 0.44)
+          << thickness;
       }
+  }
+
+
+
+  // Shear across a film that is one point thick lengthens the edge across the
+  // film without end, and neighbours along the film replace it.
+  TEST(EdgeReduction, ShearAcrossAFilm)
+  {
+    const Tensor<2, 3> start({{0.3, 0., 0.}, {0., 0.2, 0.}, {0., 0., 0.3}});
+    for (const double angle : {0., 0.5})
+      {
+        const Tensor<2, 3> turn({{std::cos(angle), -std::sin(angle), 0.},
+                                 {std::sin(angle), std::cos(angle), 0.},
+                                 {0., 0., 1.}});
+        Tensor<2, 3>       shear = identity_tensor<3>();
+        shear[0][1]              = 0.05;
+        Core<3>            core(cube<3>());
+        const unsigned int n = 9;
+        for (unsigned int p = 0; p < n; ++p)
+          {
+            add_cell<3>(core, turn * start, turn * start);
+            const Tensor<1, 3> x =
+              turn * Tensor<1, 3>({0.3 * (p / 3), 0., 0.3 * (p % 3)});
+            for (unsigned int d = 0; d < 3; ++d)
+              core.points.data(core.points.position, d)[p] = 1.5 + x[d];
+          }
+        for (unsigned int i = 0; i < 200; ++i)
+          {
+            for (unsigned int p = 0; p < n; ++p)
+              core.set(core.points.edges,
+                       p,
+                       turn * shear * transpose(turn) * core.edges(p));
+            const Film<3> film = film_of(core.points, 0, n);
+            reduce_edges<3>(core.points, 0, n, false, [&](const unsigned int) {
+              return film;
+            });
+          }
+        for (unsigned int p = 0; p < n; ++p)
+          for (unsigned int k = 0; k < 3; ++k)
+            EXPECT_LT(transpose(core.edges(p))[k].norm(), 0.32) << angle;
+      }
+  }
+
+
+
+  TEST(EdgeReduction, NormalAndThicknessOfAFilm)
+  {
+    Core<3>            core(cube<3>());
+    const Tensor<1, 3> length({0.25, 0.1, 0.25});
+    const double       angle = 0.4;
+    const Tensor<2, 3> turn({{std::cos(angle), -std::sin(angle), 0.},
+                             {std::sin(angle), std::cos(angle), 0.},
+                             {0., 0., 1.}});
+    for (int i = -2; i < 2; ++i)
+      for (int j = -1; j < 2; ++j)
+        for (int k = -2; k < 2; ++k)
+          {
+            const Tensor<1, 3> x =
+              turn *
+              Tensor<1, 3>({0.25 * (i + 0.5), 0.1 * j, 0.25 * (k + 0.5)});
+            const unsigned int p =
+              core.add(Point<3>(1.5, 1.5, 1.5) + x, length);
+            core.set(core.points.edges, p, turn * core.edges(p));
+          }
+    const Film<3> film = film_of(core.points, 0, core.points.size());
+    EXPECT_NEAR(film.thickness, 0.3, 1e-12);
+    EXPECT_NEAR(std::abs(film.normal * (turn * Tensor<1, 3>({0., 1., 0.}))),
+                1.,
+                1e-12);
   }
 
 
