@@ -329,17 +329,18 @@ namespace talus
   void
   ExplicitScheme<dim>::reduce_edges(const Batch &batch)
   {
-    // Points of a segment ask one after the other.
-    const Segment           *known = nullptr;
+    // Points of a cell ask one after the other.
+    unsigned int             known = numbers::invalid_unsigned_int;
     std::optional<Film<dim>> film;
     const auto               film_at = [&](const unsigned int p) {
-      const Segment &segment = state_.points.segment_of(p);
-      if (known != &segment)
+      const unsigned int cell = state_.points.cell_of(p);
+      if (known != cell)
         {
-          known = &segment;
-          film  = std::nullopt;
-          if (is_film(state_.grid.cells()[segment.cell], state_.nodes))
-            film = film_of(state_.points, segment.begin, segment.end);
+          const auto [begin, end] = state_.points.range_of_cell(p);
+          known                   = cell;
+          film                    = std::nullopt;
+          if (is_film(state_.grid.cells()[cell], state_.nodes))
+            film = film_of(state_.points, begin, end);
         }
       return film;
     };

@@ -6,6 +6,7 @@ Usage: every_case.py TALUS ROOT FOLDER [SUITE]
 """
 
 import ast
+import math
 import os
 import re
 import shutil
@@ -143,8 +144,13 @@ class EveryTool(Case):
         if outside:
             expected["thickness of the deposit"] = max(outside)
         found = {name: value for name, value in tiles.items()
-                 if not name.startswith(("factor of safety", "largest force on"))}
+                 if not name.startswith(("factor of safety", "largest force on", "at rest",
+                                         "arrival at"))}
         self.assertEqual(found, expected)
+        rests = results.table("statistics")["at rest"][-1]
+        self.assertEqual({name: value == 0 for name, value in tiles.items()
+                          if name.startswith("at rest")},
+                         {"at rest from": False} if rests else {"at rest": True})
         obstacles = results.table("obstacles") if results.has("obstacles.csv") else None
         for name, value in tiles.items():
             if name.startswith("largest force on"):
@@ -152,6 +158,12 @@ class EveryTool(Case):
                 force = numpy.sqrt(sum(obstacles[f"{name} force {axis}"]**2 for axis in "xyz"
                                        if f"{name} force {axis}" in obstacles))
                 self.assertAlmostEqual(value, force.max(), delta=1e-9 * value)
+            if name.startswith("arrival at "):
+                rows = [row for row in read_csv(results.path("lines.csv"))
+                        if row["line"] == name.removeprefix("arrival at ")]
+                column = next(c for c in rows[0] if c.startswith("arrival time"))
+                self.assertEqual(value, min(float(row[column]) for row in rows
+                                            if math.isfinite(float(row[column] or "nan"))))
         return tiles
 
     def check_budget(self, page, results):

@@ -273,6 +273,46 @@ class Loads(PipeCase):
         loads = read_csv(run / "pipe" / "loads.csv")
         self.assert_near(float(loads[1]["s = 180 m [N/m]"]), Q, 1e-11)
 
+    def test_plan(self):
+        """A route with a bend, in soil that moves east with 4 m/s: only the velocity across the
+        route loads the pipe, from the right or the left, on the first leg over soil thinner than
+        the pipe; nothing where there is no soil."""
+        thickness, mass, speed = (0.3, 2.0), 1500., 4.  # m, kg/m^3, m/s
+        # Columns of 10 m: the western half is thin; the last row has none.
+        rows, whole = [], 0.
+        for column in range(70):
+            volume = 100 * thickness[column % 10 > 4]
+            whole += volume
+            rows.append((column, volume))
+        rows = ["0,-1,0,0,0,0,0", *(f"2,{column},{V!r},{mass * V!r},{mass * V * speed!r},0,0"
+                                    for column, V in [(-1, whole), *rows])]
+        run = self.run_folder("plan")
+        (run / "parameters.prm").write_text("set Dimension = 3\n")
+        (run / "plan-cells.csv").write_text(
+            "west [m],south [m],dx [m],dy [m],columns,rows\n1000,2000,10,10,10,8\n")
+        (run / "plan.csv").write_text(
+            "time [s],column,volume [m^3],mass [kg],momentum x [N s],momentum y [N s],"
+            "momentum z [N s]\n" + "\n".join(rows) + "\n")
+        # Northwards through the thin soil, then to the south-east through the thick soil.
+        entries = {k: v for k, v in LINEAR.items() if not k.startswith("Load/")} | {
+            "Load/Source": "plan", "Load/Route": "1025,2005; 1025,2075; 1095,2005",
+            "Load/Drag coefficient": 0.8, "Load/Bearing factor": 10, "Load/Shear strength": 500}
+        self.respond(run, "plan", entries)
+        loads = read_csv(run / "pipe" / "loads.csv")
+        self.assertEqual([row["time [s]"] for row in loads], ["0", "2"])
+        found = {float(name[4:-len(" m [N/m]")]): [float(row[name]) for row in loads]
+                 for name in loads[0] if name.startswith("s = ")}
+        for s, (before, load) in found.items():
+            self.assertEqual(before, 0)
+            if s < 70:
+                pressure = 0.8 * mass * speed**2 / 2 + 10 * 500
+                exact = 0.3 * pressure
+            else:
+                along = (s - 70) / math.sqrt(2)
+                pressure = 0.8 * mass * speed**2 / 4 + 10 * 500 / math.sqrt(2)
+                exact = (0.6 if along > 25 else 0.3) * -pressure if along < 65 else 0.
+            self.assertAlmostEqual(load, exact, delta=1e-9 * abs(exact), msg=f"{s}")
+
     def test_run(self):
         """A slide of talus on a pipe that is an obstacle."""
         run = self.slide("slide", "End time=1.5", "Obstacles/Names=pipe",

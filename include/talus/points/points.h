@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace talus
@@ -224,25 +225,25 @@ namespace talus
       return {0, static_cast<unsigned int>(segments_.size()), 0, n_sorted()};
     }
 
-    /// Return the segment of a sorted point.
-    const Segment &
-    segment_of(const unsigned int p) const
-    {
-      const auto behind =
-        std::upper_bound(segments_.begin(),
-                         segments_.end(),
-                         p,
-                         [](const unsigned int q, const Segment &segment) {
-                           return q < segment.begin;
-                         });
-      return *(behind - 1);
-    }
-
     /// Return the cell of a sorted point.
     unsigned int
     cell_of(const unsigned int p) const
     {
-      return segment_of(p).cell;
+      return segment_of(p)->cell;
+    }
+
+    /// Return the first and the last point, plus one, of the cell of a sorted
+    /// point.
+    std::pair<unsigned int, unsigned int>
+    range_of_cell(const unsigned int p) const
+    {
+      auto               first = segment_of(p), behind = first;
+      const unsigned int cell = first->cell;
+      while (behind != segments_.end() && behind->cell == cell)
+        ++behind;
+      while (first != segments_.begin() && (first - 1)->cell == cell)
+        --first;
+      return {first->begin, (behind - 1)->end};
     }
 
     /// Number of points in a batch, not counting the rest of the last cell.
@@ -328,6 +329,19 @@ namespace talus
     memory_consumption() const;
 
   private:
+    std::vector<Segment>::const_iterator
+    segment_of(const unsigned int p) const
+    {
+      const auto behind =
+        std::upper_bound(segments_.begin(),
+                         segments_.end(),
+                         p,
+                         [](const unsigned int q, const Segment &segment) {
+                           return q < segment.begin;
+                         });
+      return behind - 1;
+    }
+
     /// Whether segment @p s lies in the same cell as the previous segment.
     bool
     in_same_cell(const unsigned int s) const

@@ -7,6 +7,7 @@ import numpy
 
 from talus_tools.errors import UserError
 from talus_tools.parameters import read_parameters
+from talus_tools.results import Results
 from talus_tools.tables import read_lines, read_table
 
 ENVELOPE_PARTS = 20  # steps in which a load without a history is applied
@@ -34,7 +35,8 @@ def read_load(settings, folder):
     """Load that the entry 'Load/Source' asks for."""
     if not os.path.isfile(os.path.join(folder, "parameters.prm")):
         raise UserError(f"'{folder}' has no parameters.prm, so it is no output folder of talus.")
-    read = {"obstacle": of_obstacle, "stations": of_stations, "line": of_line}[settings.source]
+    read = {"obstacle": of_obstacle, "stations": of_stations, "line": of_line,
+            "plan": of_plan}[settings.source]
     load = read(settings, folder)
     if not numpy.isfinite(load.values).all():
         raise UserError(f"The load of {load.label} is not a number in all rows. Choose another "
@@ -121,3 +123,67 @@ def of_line(settings, folder):
     envelope = settings.pipe.diameter * numpy.nan_to_num(lines[name][LARGEST_PRESSURE])
     share = numpy.arange(ENVELOPE_PARTS + 1) / ENVELOPE_PARTS
     return Load(share, places, share[:, None] * envelope, f"the line '{name}' of lines.csv")
+
+
+def of_plan(settings, folder):
+    """Force per length of the soil in the columns of the plan series across a route, in time:
+    that of the impact pressure by the velocity across the route, over the pipe, or over the soil
+    where it is thinner."""
+    series = Results(folder).plan()
+    if series.dim == 2:
+        raise UserError(f"'{folder}' is a run in 2-D, where no route lies on the map. Use "
+                        "'Load/Source = obstacle' or 'stations'.")
+    drag, bearing = (settings.number(f"Load/{name}", 0) for name in ("Drag coefficient",
+                                                                    "Bearing factor"))
+    strength = settings.number("Load/Shear strength", 0) if bearing else 0
+    s, places, across = places_along(settings, route_of(settings), series.cells.dx)
+    columns = numpy.array([series.column(*place) for place in places])
+    diameter, values = settings.pipe.diameter, []
+    for soil in series.states:
+        at = numpy.minimum(numpy.searchsorted(soil.columns, columns), len(soil.columns) - 1)
+        found = (soil.columns[at] == columns if len(soil.columns) else
+                 numpy.zeros(len(columns), dtype=bool))
+        load = numpy.zeros(len(columns))
+        # x points east and z south.
+        east, south = soil.velocities[at[found], 0], soil.velocities[at[found], 2]
+        speed = east * across[found, 0] - south * across[found, 1]
+        total = numpy.maximum(numpy.hypot(east, south), 1e-30)
+        density = soil.mass / soil.volume if soil.volume > 0 else 0
+        load[found] = (numpy.minimum(diameter, soil.volumes[at[found]] / series.area)
+                       * (drag * density * speed * abs(speed) / 2
+                          + bearing * strength * speed / total))
+        values.append(load)
+    return Load(numpy.array([soil.time for soil in series.states]), s, numpy.array(values),
+                "the soil of plan.csv on the route")
+
+
+def route_of(settings):
+    """Corners of the route on the map, shape (n, 2) [m]."""
+    expected = "two or more places on the map, 'easting, northing; easting, northing; ...' in m,"
+    try:
+        corners = numpy.array([[float(x) for x in place.split(",")]
+                               for place in settings.needed("Load/Route").split(";")])
+    except ValueError:
+        raise settings.error("Load/Route", expected) from None
+    if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) < 2:
+        raise settings.error("Load/Route", expected)
+    return corners
+
+
+def places_along(settings, corners, step):
+    """Distances along the route, in the middle of parts of at most `step` [m], their places, and
+    the unit vectors across, to the right of the route."""
+    s, places, across = [], [], []
+    start = 0.
+    for one, other in zip(corners, corners[1:]):
+        length = numpy.linalg.norm(other - one)
+        if length == 0:
+            raise settings.error("Load/Route", "places that differ from each other")
+        n = int(numpy.ceil(length / step))
+        t = (numpy.arange(n) + 0.5) / n
+        s.append(start + t * length)
+        places.append(one + t[:, None] * (other - one))
+        right = numpy.array([other[1] - one[1], one[0] - other[0]]) / length
+        across.append(numpy.tile(right, (n, 1)))
+        start += length
+    return numpy.concatenate(s), numpy.concatenate(places), numpy.concatenate(across)

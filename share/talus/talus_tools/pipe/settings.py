@@ -19,10 +19,12 @@ ENTRIES = {
     "Axial springs/Stiffness": "0", "Axial springs/Ultimate resistance": "",
     "Load/Source": "obstacle", "Load/Obstacle": "", "Load/Column": "force x [N]",
     "Load/Width": "", "Load/Centre": "", "Load/Stations": "", "Load/Line": "",
+    "Load/Route": "", "Load/Drag coefficient": "0", "Load/Bearing factor": "0",
+    "Load/Shear strength": "",
     "Load/Lateral resistance in the slide": "1",
 }
 ENDS = ("fixed", "pinned", "free")
-SOURCES = ("obstacle", "stations", "line")
+SOURCES = ("obstacle", "stations", "line", "plan")
 
 
 @dataclasses.dataclass

@@ -7,6 +7,7 @@ import numpy
 
 from talus_tools.report.places import is_release, structure_names
 from talus_tools.report.sections.forces import having_forces
+from talus_tools.tables import read_lines
 from talus_tools.units import plain, show, unit_of
 
 
@@ -113,7 +114,33 @@ def deposit(run):
                  )] if len(thickness) else []
 
 
+def arrivals(run):
+    """When soil reaches each of the first lines on the ground, such as a pipeline."""
+    groups = read_lines(run.path("lines.csv")) if run.has("lines.csv") else {}
+    result = []
+    for line, columns in list(groups.items())[:2]:
+        name = next((name for name in columns if name.startswith("arrival time")), None)
+        times = columns[name][numpy.isfinite(columns[name])] if name else numpy.empty(0)
+        if len(times):
+            thickness = name[len("arrival time "):-len(" [s]")]
+            result.append(tile(f"arrival at {line or 'the line'}", times.min(), "s",
+                               f"Soil of {thickness} reaches the first place of the line."))
+    return result
+
+
+def final(run):
+    """Whether the results are final: the soil is at rest at the end."""
+    table = run.statistics
+    if "at rest" not in table or not len(table["at rest"]):
+        return []
+    since, end = run.log.at_rest_since(), table["time [s]"][-1]
+    if since is not None and table["at rest"][-1]:
+        return [tile("at rest from", since, "s", "The results are final.")]
+    return [Tile("at rest", "no", "0", f"The soil still moved at t = {plain(end)} s: the runout is "
+                 "not final.")]
+
+
 def headline(run):
-    """At most eight tiles."""
+    """At most ten tiles: how far, how fast, how thick, when, with what force, and if finally."""
     result = safety(run) + (runout(run) if run.tables["runout"] else along_x(run))
-    return result + deposit(run) + forces(run)
+    return result + deposit(run) + arrivals(run) + forces(run) + final(run)

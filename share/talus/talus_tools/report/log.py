@@ -36,6 +36,11 @@ class Log:
                          self.safety)
         return (float(found[2]), found[1].strip()) if found else None
 
+    def at_rest_since(self):
+        """Time from which on the soil was at rest [s], or None."""
+        found = re.findall(r"The soil is at rest since t = ([-+.\de]*\d) s", self.text)
+        return float(found[-1]) if found else None
+
     def last_event(self):
         """The last line that says that the run stopped, was resumed, or came to its end."""
         lines = [line for line in self.text.splitlines()
