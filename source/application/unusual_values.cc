@@ -67,6 +67,20 @@ namespace talus
 
 
 
+    /// Return the least number among the undrained shear strengths, Pa; 0
+    /// without one.
+    double
+    least_strength(const Values &values)
+    {
+      double least = infinity;
+      for (const auto &[path, text] : values)
+        if (boost::ends_with(path, "/Undrained shear strength"))
+          least = std::fmin(least, number(values, path));
+      return least < infinity ? least : 0.;
+    }
+
+
+
     /// The table: ranges from light foam to metals and from flumes to oceans,
     /// so that a value outside is hardly ever meant.
     std::vector<UsualRange>
@@ -80,6 +94,12 @@ namespace talus
               {"Water/", "Added mass coefficient", 1e-4, 10., ""},
               {"Obstacles/", "Mass", 1e-6, 1e10, " kg"},
               {"", "Friction coefficient", 1e-4, 100., ""},
+              {"",
+               "Maximum shear stress",
+               least_strength(values) / 300.,
+               infinity,
+               " Pa",
+               "fit the strength of the soil"},
               {"", "Slip to remould", 1e-6, 1e3, " m"},
               {"", "Film consistency", 1e-6, 1e6, " Pa s^n"},
               {"", "Film thickness", 1e-6, 1e2, " m"},

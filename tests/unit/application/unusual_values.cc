@@ -48,6 +48,18 @@ namespace
 
 
 
+  TEST(UnusualValues, BedWeakerThanAnyRemouldedSoil)
+  {
+    const std::map<std::string, std::string> soil = {
+      {"Materials/clay/Undrained shear strength", "3000"},
+      {"Materials/mud/Undrained shear strength", "5e4 + depth"}};
+    EXPECT_NE(remark_on("Obstacles/bed/Maximum shear stress", "6", soil), "");
+    EXPECT_EQ(remark_on("Obstacles/bed/Maximum shear stress", "30", soil), "");
+    EXPECT_EQ(remark_on("Obstacles/bed/Maximum shear stress", "6"), "");
+  }
+
+
+
   TEST(UnusualValues, AreMeasuredByRunAndMesh)
   {
     const std::map<std::string, std::string> run = {

@@ -42,6 +42,10 @@ def report(response, folder):
     for name, unit, peak, time, place in response.largest():
         when = f" at t = {plain(time)} s" if response.has_history else ""
         print(f"largest {name}: {show(peak, unit.strip('-'))}{when}, s = {plain(place)} m")
+    diameter = response.settings.pipe.diameter
+    if not 0.05 <= diameter <= 4:
+        print(f"Remark: 'Pipe/Outer diameter' is {diameter:g} m, where 0.05 to 4 m are usual. Look "
+              "at the number and its unit.")
     if response.utilisation() > 1:
         print("Remark: the stress exceeds the yield stress. The pipe is computed as elastic; "
               "beyond a utilisation of 1 deflections are too small and moments too large.")
