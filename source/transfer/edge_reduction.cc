@@ -29,8 +29,9 @@ namespace talus
     // A film of soil one point thick has neighbours along the film and none
     // across: a long edge along the film stands for soil that must be split. An
     // edge is shortened by a vector that goes through this part of the film or
-    // less.
-    constexpr double largest_share = 0.5;
+    // less, so that three of four points have the neighbour. With a half, a
+    // slab that breaks up tears (prm/slab-failure.prm).
+    constexpr double largest_share = 0.25;
 
     // Growth beyond which the edge is shortened along edges of any length. The
     // splitter has a limit and could not halve the edge.
