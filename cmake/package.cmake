@@ -68,12 +68,12 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # Needed by the tools: Python, the packages that the tools name where a module is
-# missing, and packages for fields in HDF5 and for films.
+# missing, and a package for films.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "python3:any")
 string(CONCAT CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
   "python3-numpy, python3-matplotlib, python3-pil, python3-jinja2, python3-scipy, "
-  "python3-sklearn")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-h5py, ffmpeg")
+  "python3-sklearn, python3-gdal, libopenblas0-serial")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_EXTRA
   ${CMAKE_BINARY_DIR}/shlibs ${CMAKE_BINARY_DIR}/triggers)
 # Of a package the loader finds the libraries without.
@@ -89,7 +89,7 @@ if(talus_has_python)
     "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_minor})")
 endif()
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-h5py, python3-mpi4py")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-mpi4py")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
 "The Python module talus: runs that a program leads step by step, with points as
 arrays of numpy and obstacles moved by functions, and readers of results.")
@@ -98,7 +98,8 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
 in 3-D, from equilibrium and factor of safety to the run-out, with obstacles.
 Tools write reports (talus-report), comparisons (talus-compare) and films
 (talus-animate), run studies (talus-study), fit parameters to an observed deposit
-(talus-calibrate), and compute the response of a pipeline (talus-pipe).")
+(talus-calibrate), compute the response of a pipeline (talus-pipe), and write the
+source of a tsunami model (talus-tsunami).")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 "Headers and the files of CMake for programs that lead runs or have constitutive
 laws of their own, and an example of such a program.")

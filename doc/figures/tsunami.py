@@ -3,8 +3,8 @@
 
     /usr/bin/python3 tsunami.py PICTURE.png FOLDER
 
-FOLDER holds the output of prm/slope-3d.prm with 'Tsunami source/Write' and
-'Maps/Write' = true.
+FOLDER holds the output of prm/slope-3d.prm with 'Output/Plan interval', and the
+files of talus-tsunami.
 """
 
 import os

@@ -36,8 +36,7 @@ PAGES = [
     ]),
     ("statics", "Equilibrium and factor of safety", [
         ("Equilibrium",
-         ["ImplicitColumn", "ImplicitElasticaLoads", "ImplicitElastica",
-          "Multigrid"]),
+         ["Multigrid"]),
         ("Factor of safety",
          ["InfiniteSlope", "TaylorSlope", "PaperSlopeSafety", "ClaySlope",
           "ClaySlopeFine", "SlopeStability", "StripFooting",

@@ -8,7 +8,7 @@ times, points as the cells of their edges, the bed in relief, structures, and th
 With `boxes` points are drawn as boxes parallel to the axes.
 
 It may also be imported as a macro (Macros > Import new macro); it then shows the run whose
-points.pvd or points.xdmf is selected. Without a folder it takes the present one.
+points.pvd is selected. Without a folder it takes the present one.
 """
 
 import os
@@ -40,18 +40,15 @@ def folder_of_run():
     if len(sys.argv) > 1 and os.path.isdir(sys.argv[1]):
         return sys.argv[1]
     source = simple.GetActiveSource()
-    name = getattr(source, "FileName", None) or getattr(source, "FileNames", [None])[0]
+    name = getattr(source, "FileName", None)
     return os.path.dirname(name) if name else os.getcwd()
 
 
 def reader_of(folder, name):
     """A reader of all times of points, obstacles ...; None where the run wrote none."""
-    for ending, kind in ((".pvd", simple.PVDReader), (".xdmf", simple.XDMFReader)):
-        path = os.path.join(folder, name + ending)
-        if os.path.isfile(path):
-            key = "FileName" if ending == ".pvd" else "FileNames"
-            return kind(registrationName=name, **{key: path if ending == ".pvd" else [path]})
-    return None
+    path = os.path.join(folder, name + ".pvd")
+    return (simple.PVDReader(registrationName=name, FileName=path) if os.path.isfile(path)
+            else None)
 
 
 def times_of(reader):
@@ -211,9 +208,8 @@ def main():
     folder = folder_of_run()
     points = reader_of(folder, "points")
     if points is None:
-        raise SystemExit(f"paraview.py: '{folder}' has neither points.pvd nor points.xdmf. Start "
-                         "it in the output folder of a run that writes points, or name that "
-                         "folder.")
+        raise SystemExit(f"paraview.py: '{folder}' has no points.pvd. Start it in the output "
+                         "folder of a run that writes points, or name that folder.")
     view = simple.GetActiveViewOrCreate("RenderView")
     view.UseColorPaletteForBackground, view.BackgroundColorMode = 0, "Single Color"
     view.Background, view.OrientationAxesLabelColor = WHITE, BLACK

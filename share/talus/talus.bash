@@ -28,6 +28,8 @@ _talus_tool()
     talus-compare) options='--output' ;;
     talus-pipe) options='--output' reads_file=yes ;;
     talus-report) options='--slab --weak-layer' ;;
+    talus-tsunami)
+      options='--interval --start-time --width --water-depth --degrees --netcdf --output' ;;
     talus-study) options='--output --program --at-once --list --member --collect' reads_file=yes ;;
   esac
   COMPREPLY=()
@@ -36,7 +38,7 @@ _talus_tool()
       mapfile -t COMPREPLY < <(compgen -f -- "$word")
       return ;;
     # Numbers, and names of bodies.
-    --fps|--most|--at-once|--member|--slab|--weak-layer)
+    --fps|--most|--at-once|--member|--slab|--weak-layer|--interval|--start-time|--width|--water-depth)
       return ;;
   esac
   if [[ $word == -* ]]; then
@@ -49,4 +51,4 @@ _talus_tool()
   fi
 }
 complete -o filenames -F _talus_tool talus-animate talus-calibrate talus-compare \
-  talus-pipe talus-report talus-study
+  talus-pipe talus-report talus-study talus-tsunami

@@ -7,10 +7,13 @@
 #include <talus/version.h>
 
 #include <deal.II/base/config.h>
+#include <deal.II/base/utilities.h>
 
 #include <boost/program_options.hpp>
 
 #include <iostream>
+#include <set>
+#include <sstream>
 
 namespace talus
 {
@@ -99,6 +102,68 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Parameters that nearly every case sets. `*` is the name of a body or of
+    /// a material.
+    const std::set<std::string> first_parameters = {
+      "Bodies/*/Material",
+      "Bodies/*/Shape",
+      "Bodies/*/Vertices",
+      "Bodies/Names",
+      "Boundaries/Bottom",
+      "Boundaries/Seabed/Friction coefficient",
+      "Boundaries/Seabed/Maximum shear stress",
+      "End time",
+      "Gravity/Magnitude",
+      "Gravity/Slope angle",
+      "Grid/Cell size",
+      "Grid/Lower corner",
+      "Grid/Upper corner",
+      "Materials/*/Density",
+      "Materials/*/Law",
+      "Materials/*/Poisson's ratio",
+      "Materials/*/Undrained shear strength",
+      "Materials/*/Young's modulus",
+      "Materials/Names",
+      "Output/Folder"};
+
+
+
+    /// Copy a listing of parameters from @p in to @p out, with a mark above
+    /// each of the first parameters.
+    void
+    mark_first_parameters(std::istream &in, std::ostream &out)
+    {
+      std::vector<std::string> sections;
+      for (std::string line; std::getline(in, line); out << line << '\n')
+        {
+          const std::string words = dealii::Utilities::trim(line);
+          if (words == "end")
+            sections.pop_back();
+          else if (words.rfind("subsection ", 0) == 0)
+            sections.push_back(
+              sections.size() == 1 &&
+                  (sections[0] == "Bodies" || sections[0] == "Materials")
+                ? "*"
+                : words.substr(11));
+          else if (words.rfind("set ", 0) == 0)
+            {
+              std::string name;
+              for (const std::string &section : sections)
+                name += section + '/';
+              name +=
+                dealii::Utilities::trim(words.substr(4, words.find('=') - 4));
+              if (first_parameters.count(name) > 0)
+                out << std::string(line.find("set "), ' ')
+                    << "# * One of the twenty parameters to set first.\n";
+            }
+        }
+    }
+  } // namespace
+
+
+
   /// The parameters depend on the names of bodies and materials and on the
   /// laws, so the reference describes an example with all laws. The example is
   /// 2-D; parameters in 3-D have the same names.
@@ -115,7 +180,9 @@ namespace talus
       preview.materials.push_back({law, law});
     Simulation<2> simulation(preview, MPI_COMM_SELF);
     dealii::ParameterAcceptor::declare_all_parameters();
+    std::stringstream listing;
     dealii::ParameterAcceptor::prm.print_parameters(
-      out, dealii::ParameterHandler::Text);
+      listing, dealii::ParameterHandler::Text);
+    mark_first_parameters(listing, out);
   }
 } // namespace talus

@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <iomanip>
+#include <map>
 #include <new>
 #include <regex>
 #include <sstream>
@@ -113,6 +114,29 @@ namespace talus
 
 
 
+    /// Return what replaces a parameter or section of former versions;
+    /// otherwise empty.
+    std::string
+    replacement(const std::string &name)
+    {
+      static const std::map<std::string, std::string> replacements = {
+        {"Format",
+         " Points, grid and obstacles are VTU files without a choice: remove "
+         "Output/Format."},
+        {"Strain",
+         " Static stages always use small strain: remove the line. A body at "
+         "large strain comes to rest in the stage 'dynamics', with "
+         "'Gravity/Ramp time' and 'Damping/Local damping'."},
+        {"Tsunami source",
+         " Set 'Output/Plan interval' and, for other cells, 'Maps/Cell size'. "
+         "After the run, `talus-tsunami FOLDER` makes the source; its options "
+         "replace the other parameters."}};
+      const auto found = replacements.find(name);
+      return found == replacements.end() ? "" : found->second;
+    }
+
+
+
     /// Rewrite an @p error of the parameter parser as a sentence that begins
     /// with @p place and says what to do. Unknown messages, for example of a
     /// new version of deal.II, pass unchanged.
@@ -135,12 +159,16 @@ namespace talus
       static const std::regex bad_line("The line <(.*)> could not be parsed.*");
 
       std::smatch part;
+      const auto  advice = [&part](const std::string &keyword) {
+        const std::string found = replacement(part[1]);
+        return found.empty() ? similar(part[1], keyword) + listed : found;
+      };
       if (std::regex_match(error, part, unknown_entry))
         return place + "there is no parameter '" + part[1].str() +
-               "' in this section." + similar(part[1], "set ") + listed;
+               "' in this section." + advice("set ");
       if (std::regex_match(error, part, unknown_section))
         return place + "there is no section '" + part[1].str() + "' here." +
-               similar(part[1], "subsection ") + listed;
+               advice("subsection ");
       if (std::regex_match(error, part, bad_value))
         return place + "'" + part[2].str() + "' is '" + part[1].str() +
                "', where " + expected(part[3]) +

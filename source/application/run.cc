@@ -181,7 +181,7 @@ namespace talus
     std::vector<ObstacleState>
     obstacles_of(const Simulation<dim> &simulation)
     {
-      const FacetContact<dim>   &contact   = simulation.contact();
+      const Contact<dim>        &contact   = simulation.contact();
       const Obstacles<dim>      &obstacles = contact.obstacles();
       const double               dt        = contact.previous_time_step();
       const double               per_time  = dt > 0 ? 1. / dt : 0.;

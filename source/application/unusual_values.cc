@@ -74,37 +74,22 @@ namespace talus
     {
       const double      length  = length_of_mesh(values);
       const std::string by_mesh = "fit, up to the longest edge of the mesh";
-      std::vector<UsualRange> result = {
-        {"Materials/", "Density", 0.1, 3e4, " kg/m^3"},
-        {"Materials/", "Consistency", 1e-6, 1e6, " Pa s^n"},
-        {"Water/", "Density", 0.1, 5e3, " kg/m^3"},
-        {"Water/", "Added mass coefficient", 1e-4, 10., ""},
-        {"Obstacles/", "Mass", 1e-6, 1e10, " kg"},
-        {"", "Friction coefficient", 1e-4, 100., ""},
-        {"", "Slip to remould", 1e-6, 1e3, " m"},
-        {"", "Film consistency", 1e-6, 1e6, " Pa s^n"},
-        {"", "Film thickness", 1e-6, 1e2, " m"},
-        {"Maps/", "Cell size", 0., length, " m", by_mesh}};
-      const auto writes = values.find("Tsunami source/Write");
-      if (writes == values.end() || writes->second != "true")
-        return result;
-      const double interval = number(values, "Tsunami source/Interval");
-      result.push_back(
-        {"Tsunami source/", "Cell size", 0., length, " m", by_mesh});
-      result.push_back({"Tsunami source/",
-                        "Interval",
-                        0.,
-                        number(values, "End time"),
-                        " s",
-                        "fit, up to 'End time'"});
-      result.push_back({"Tsunami source/",
-                        "Start time",
-                        interval,
-                        infinity,
-                        " s",
-                        "are expected, at least 'Tsunami source/Interval': an "
-                        "earlier motion counts as topography of the start"});
-      return result;
+      return {{"Materials/", "Density", 0.1, 3e4, " kg/m^3"},
+              {"Materials/", "Consistency", 1e-6, 1e6, " Pa s^n"},
+              {"Water/", "Density", 0.1, 5e3, " kg/m^3"},
+              {"Water/", "Added mass coefficient", 1e-4, 10., ""},
+              {"Obstacles/", "Mass", 1e-6, 1e10, " kg"},
+              {"", "Friction coefficient", 1e-4, 100., ""},
+              {"", "Slip to remould", 1e-6, 1e3, " m"},
+              {"", "Film consistency", 1e-6, 1e6, " Pa s^n"},
+              {"", "Film thickness", 1e-6, 1e2, " m"},
+              {"Maps/", "Cell size", 0., length, " m", by_mesh},
+              {"Output/",
+               "Plan interval",
+               0.,
+               number(values, "End time"),
+               " s",
+               "fit, up to 'End time'"}};
     }
   } // namespace
 

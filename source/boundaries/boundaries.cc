@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/boundaries/boundaries.h>
-#include <talus/boundaries/contact_area.h>
 #include <talus/boundaries/wall_conditions.h>
 #include <talus/grid/node_places.h>
 
@@ -197,30 +196,35 @@ namespace talus
   // The owner of a constraint does not depend on the time.
   template <int dim>
   void
-  Boundaries<dim>::record_walls(const NodalFields<dim> &nodes,
-                                const unsigned char     faces,
-                                const unsigned int      node,
-                                const Tensor<1, dim>   &impulse,
-                                BoundaryWork<dim>      &work)
+  Boundaries<dim>::record_walls(const State<dim>     &state,
+                                const unsigned int    node,
+                                const Tensor<1, dim> &impulse,
+                                BoundaryWork<dim>    &work)
   {
-    record_walls(constraints_at(faces, node, 0.), nodes, node, impulse, work);
+    record_walls(constraints_at(state.grid.faces_of_node(node), node, 0.),
+                 state.nodes,
+                 node,
+                 impulse,
+                 work);
   }
 
 
 
   template <int dim>
   void
-  Boundaries<dim>::impose_walls(NodalFields<dim>   &nodes,
-                                const unsigned char faces,
-                                const unsigned int  node,
-                                const double        t,
-                                const double        dt,
-                                BoundaryWork<dim>  &work)
+  Boundaries<dim>::impose_walls(State<dim>        &state,
+                                const unsigned int node,
+                                BoundaryWork<dim> &work)
   {
-    const auto constraints = constraints_at(faces, node, t + 0.5 * dt);
+    const auto constraints = constraints_at(state.grid.faces_of_node(node),
+                                            node,
+                                            state.time + 0.5 * state.time_step);
     if (constraints.begin() != constraints.end())
-      record_walls(
-        constraints, nodes, node, constraints.impose(nodes, node), work);
+      record_walls(constraints,
+                   state.nodes,
+                   node,
+                   constraints.impose(state.nodes, node),
+                   work);
   }
 
 
@@ -243,8 +247,8 @@ namespace talus
 
   // A traction is a force and enters the momentum update: a wall that holds the
   // node then simply bears the traction. The work is known only when all
-  // conditions have acted: apply() computes the work from the list of loaded
-  // nodes.
+  // conditions have acted: correct_velocities() computes the work from the list
+  // of loaded nodes.
   template <int dim>
   void
   Boundaries<dim>::add_tractions(NodalFields<dim> &nodes,
@@ -266,11 +270,10 @@ namespace talus
               condition.has_traction() &&
               condition.acts_on(grid.faces_of_node(node)))
             {
-              const unsigned int   face = condition.face();
+              const FaceShare share = grid.face_share(condition.face(), node);
+              const double f = std::min(1., nodes.volume(node) / share.volume);
               const Tensor<1, dim> force =
-                grid.face_share(face, node).area *
-                volume_fraction_at_face(nodes, grid, face, node) *
-                condition.traction(place_of(node), t);
+                f * share.area * condition.traction(place_of(node), t);
               nodes.add_force(node, force);
               loaded_.push_back({node, c, force});
             }
@@ -281,20 +284,17 @@ namespace talus
   // With the lumped mass no node depends on the neighbours: the order of the
   // nodes matters only for round-off in the sums.
   template <int dim>
-  BoundaryWork<dim>
-  Boundaries<dim>::apply(NodalFields<dim> &nodes,
-                         const Grid<dim>  &grid,
-                         const double      t,
-                         const double      dt,
-                         const double      mass_cutoff)
+  void
+  Boundaries<dim>::correct_velocities(State<dim> &state)
   {
-    BoundaryWork<dim> work;
+    const NodalFields<dim> &nodes = state.nodes;
+    BoundaryWork<dim>       work;
     for (const unsigned int node : nodes.active_boundary_nodes())
-      if (nodes.mass(node) > mass_cutoff)
-        impose_walls(nodes, grid.faces_of_node(node), node, t, dt, work);
+      if (nodes.mass(node) > state.constants.mass_cutoff)
+        impose_walls(state, node, work);
     for (const LoadedNode &loaded : loaded_)
       {
-        const Tensor<1, dim> impulse = dt * loaded.force;
+        const Tensor<1, dim> impulse = state.time_step * loaded.force;
         const Tensor<1, dim> v       = nodes.mean_velocity(loaded.node);
         work.contact -= impulse * v;
         work.wall_impulse += impulse;
@@ -302,7 +302,7 @@ namespace talus
           reactions_.in_step(conditions_[loaded.condition]->face())
             .add_contact(place_of(loaded.node), impulse, Tensor<1, dim>(), v);
       }
-    return work;
+    work.record(state.accounts);
   }
 
 

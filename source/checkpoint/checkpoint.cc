@@ -2,9 +2,16 @@
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/checkpoint/checkpoint.h>
+#include <talus/transfer/points_of_cells.h>
 #include <talus/version.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 namespace talus
 {
@@ -18,6 +25,26 @@ namespace talus
     minutes(const std::chrono::steady_clock::duration duration)
     {
       return std::chrono::duration<double>(duration).count() / 60.;
+    }
+
+
+
+    /// Return the reason why the folder has no room for @p n_bytes, or an empty
+    /// text. p4est ends the program if the disk is full. Only a reservation
+    /// knows of quotas; some file systems cannot reserve.
+    std::string
+    lack_of_space(const fs::path &folder, const double n_bytes)
+    {
+      const fs::path path = folder / state_file_name;
+      const int      file = ::open(path.c_str(), O_WRONLY | O_CREAT, 0666);
+      const int error     = (::fallocate(file, 0, 0, n_bytes) == 0 ? 0 : errno);
+      ::close(file);
+      std::error_code ignored;
+      fs::remove(path, ignored);
+      const auto space = fs::space(folder, ignored);
+      if (error == ENOSPC || error == EDQUOT)
+        return std::strerror(error);
+      return space.available < n_bytes ? std::strerror(ENOSPC) : "";
     }
   } // namespace
 
@@ -120,15 +147,16 @@ namespace talus
   /// the run continues with bit-identical results. Collective.
   template <int dim>
   fs::path
-  Checkpoint<dim>::write(const Content &content, const Grid<dim> &grid)
+  Checkpoint<dim>::write(const Content &content)
   {
     const fs::path path     = checkpoint_path(output_folder_, content.step);
     const fs::path part     = temporary_path(path);
     const bool     is_first = is_first_rank(communicator_);
 
     check_on_all_ranks(is_first ? make_temporary_folder(path) : "");
-    write_mesh(part, grid);
+    write_mesh(part, content);
     write_state(part, content);
+    write_file(part / checksums_file_name, list_checksums(part, communicator_));
     // Each node of a cluster flushes its own part to disk.
     check_on_all_ranks(sync_folder(part));
     check_on_all_ranks(is_first ? commit(path) : "");
@@ -165,52 +193,74 @@ namespace talus
 
 
 
-  /// Save the mesh, if there is space for an upper estimate of its few files.
-  /// Other programs may fill the disk meanwhile, but rarely. Collective.
+  /// Save the mesh with the points, if there is space for an upper estimate of
+  /// the few files of the mesh. Other programs may fill the disk meanwhile, but
+  /// rarely; deal.II then may not notice, so the size is compared. Collective.
   template <int dim>
   void
-  Checkpoint<dim>::write_mesh(const fs::path  &folder,
-                              const Grid<dim> &grid) const
+  Checkpoint<dim>::write_mesh(const fs::path &folder,
+                              const Content  &content) const
   {
-    // p4est ends the program if the disk is full.
-    const double    needed = 1e5 + 64. * grid.n_global_cells();
-    std::error_code error;
-    const auto      space = fs::space(folder, error);
-    check_on_all_ranks(!error && space.available < needed
-                         ? "No space left on device for the mesh"
+    const auto  &points = content.points;
+    const double n_bytes =
+      sizeof(double) *
+      Utilities::MPI::sum(content.cell_weights.size() +
+                            1. * points.n_arrays() * points.size(),
+                          communicator_);
+    const double n_bytes_of_mesh = 1e5 + 64. * content.grid.n_global_cells();
+    check_on_all_ranks(is_first_rank(communicator_)
+                         ? lack_of_space(folder, n_bytes + n_bytes_of_mesh)
                          : "");
-    grid.save((folder / mesh_file_name).string());
+    attach_points(content.grid, points, content.cell_weights);
+    content.grid.save((folder / mesh_file_name).string());
+    std::error_code error;
+    const auto      size = fs::file_size(folder / points_file_name, error);
+    check_on_all_ranks(
+      error || size < n_bytes ? "the file of the points is not complete" : "");
   }
 
 
 
-  /// Write a single HDF5 file for all ranks. The mesh is written before, since
-  /// this file contains its checksums: one file tells whether the checkpoint is
-  /// valid. Collective.
+  /// Collective.
   template <int dim>
   void
   Checkpoint<dim>::write_state(const fs::path &folder,
                                const Content  &content) const
   {
-    CheckpointHead head;
-    head.dimension = dim;
-    head.n_ranks   = Utilities::MPI::n_mpi_processes(communicator_);
-    head.step      = content.step;
-    head.time      = content.time;
-    head.end_time  = content.end_time;
-    head.version   = TALUS_VERSION;
-    head.revision  = TALUS_GIT_REVISION;
-
-    Hdf5OutputFile file(folder / state_file_name, communicator_);
-    save_head(file, head);
-    save_points(file, content.points, content.cell_weights);
-    save_state(file, content.state);
+    Hdf5Image file;
+    save_head(file,
+              {dim,
+               Utilities::MPI::n_mpi_processes(communicator_),
+               content.step,
+               content.time,
+               content.end_time,
+               TALUS_VERSION,
+               TALUS_GIT_REVISION});
     file.write_text("parameters", content.parameters);
-    // All ranks have returned from save(): the mesh is complete.
-    file.write_text("mesh",
-                    is_first_rank(communicator_) ? mesh_checksums(folder) : "");
-    file.close();
-    check_on_all_ranks(file.error());
+    save_columns(file, content.points);
+    save_state(file, content.state, communicator_);
+    write_file(folder / state_file_name, file.bytes());
+  }
+
+
+
+  /// Write the bytes of the first rank. Collective.
+  template <int dim>
+  void
+  Checkpoint<dim>::write_file(const fs::path    &path,
+                              const std::string &bytes) const
+  {
+    std::string error;
+    if (is_first_rank(communicator_))
+      {
+        errno = 0;
+        std::ofstream file(path, std::ios::binary);
+        file << bytes;
+        file.close();
+        if (!file)
+          error = std::strerror(errno);
+      }
+    check_on_all_ranks(error);
   }
 
 

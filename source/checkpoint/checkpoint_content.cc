@@ -4,18 +4,65 @@
 #include <talus/checkpoint/checkpoint_content.h>
 #include <talus/io/checksum.h>
 
-#include <algorithm>
+#include <fstream>
 #include <map>
-#include <numeric>
-#include <set>
 #include <sstream>
 
 namespace talus
 {
   using namespace dealii;
+  namespace fs = std::filesystem;
+
+  void
+  save_head(Hdf5Image &file, const CheckpointHead &head)
+  {
+    file.write("head/dimension", {1. * head.dimension});
+    file.write("head/ranks", {1. * head.n_ranks});
+    file.write("head/step", {1. * head.step});
+    file.write("head/time [s]", {head.time});
+    file.write("head/end time [s]", {head.end_time});
+    file.write_text("head/talus version", head.version);
+    file.write_text("head/git revision", head.revision);
+  }
+
+
+
+  CheckpointHead
+  load_head(const Hdf5Image &file)
+  {
+    CheckpointHead head;
+    head.dimension = file.read_number("head/dimension");
+    head.n_ranks   = file.read_number("head/ranks");
+    head.step      = file.read_number("head/step");
+    head.time      = file.read_number("head/time [s]");
+    head.end_time  = file.read_number("head/end time [s]");
+    head.version   = file.read_text("head/talus version");
+    head.revision  = file.read_text("head/git revision");
+    return head;
+  }
+
+
 
   namespace
   {
+    constexpr const char *name_of_numbers = "state/numbers";
+    constexpr const char *name_of_columns = "text/columns of the state";
+    constexpr const char *name_of_points  = "text/columns of the points";
+
+    /// Name, unit and number of components of each column, one per line.
+    template <int dim>
+    std::string
+    columns_of(const Points<dim> &points)
+    {
+      std::string lines;
+      for (const Column &column : points.columns())
+        lines +=
+          text(column.name, '\t', column.unit, '\t', column.n_components, '\n');
+      return lines;
+    }
+
+
+
     /// Name of the reduction, for readers of the file without talus.
     const char *
     name_of(const Reduction reduction)
@@ -33,175 +80,52 @@ namespace talus
 
 
 
-    /// Return @p name; a slash would create a group in HDF5.
+    /// Return the rows of all ranks, on the first rank. Collective.
+    std::vector<double>
+    gathered(const std::vector<double> &own, const MPI_Comm communicator)
+    {
+      std::vector<double> all;
+      for (const auto &rows : Utilities::MPI::gather(communicator, own))
+        all.insert(all.end(), rows.begin(), rows.end());
+      return all;
+    }
+
+
+
+    /// Return the content of a file, which the first rank reads; empty if there
+    /// is no file. Collective.
     std::string
-    checked(const std::string &name)
+    bytes_of(const fs::path &path, const MPI_Comm communicator)
     {
-      AssertThrow(name.find('/') == std::string::npos,
-                  ExcInternalError("'" + name + "' must not have a slash."));
-      return name;
-    }
-
-
-
-    /// Load a column. The file stores the components of a point side by side,
-    /// as expected by h5py; Points has a row per component. The number of rows
-    /// and columns is taken from the file, so that differences between versions
-    /// are detected. @p first is the first row of this rank. Collective.
-    template <int dim>
-    void
-    load_column(Hdf5InputFile      &file,
-                const Column       &column,
-                const std::uint64_t first,
-                Points<dim>        &points)
-    {
-      const unsigned int        n    = column.n_components;
-      const std::string         name = "points/" + column.name;
-      const std::vector<double> rows = file.read(name, first, points.size());
-      /// The error of HDF5 becomes part of the message.
-      check_read(file);
-      AssertThrow(file.shape(name).second == n,
-                  ExcUser("In '" + file.path().string() + "' the column '" +
-                          column.name +
-                          "' has a different number of components from this "
-                          "version of talus. Resume with the version of talus "
-                          "that wrote the file."));
-      for (unsigned int c = 0; c < n; ++c)
-        for (unsigned int p = 0; p < points.size(); ++p)
-          points.data(column.first, c)[p] = rows[std::size_t(n) * p + c];
+      std::ostringstream bytes;
+      if (is_first_rank(communicator))
+        bytes << std::ifstream(path, std::ios::binary).rdbuf();
+      return Utilities::MPI::broadcast(communicator, bytes.str());
     }
   } // namespace
 
 
 
-  /// Attributes of the file: h5dump shows attributes without reading arrays.
-  void
-  save_head(Hdf5OutputFile &file, const CheckpointHead &head)
-  {
-    file.set_attribute("/", "format version", head.format);
-    file.set_attribute("/", "dimension", head.dimension);
-    file.set_attribute("/", "ranks", head.n_ranks);
-    file.set_attribute("/", "step", head.step);
-    file.set_attribute("/", "time [s]", head.time);
-    file.set_attribute("/", "end time [s]", head.end_time);
-    file.set_attribute("/", "talus version", head.version);
-    file.set_attribute("/", "git revision", head.revision);
-  }
-
-
-
-  /// The format is read first: other formats may lack the other entries.
-  CheckpointHead
-  load_head(Hdf5InputFile &file)
-  {
-    CheckpointHead head;
-    head.format = file.integer_attribute("/", "format version");
-    if (head.format != checkpoint_format)
-      return head;
-    head.dimension = file.integer_attribute("/", "dimension");
-    head.n_ranks   = file.integer_attribute("/", "ranks");
-    head.step      = file.integer_attribute("/", "step");
-    head.time      = file.number_attribute("/", "time [s]");
-    head.end_time  = file.number_attribute("/", "end time [s]");
-    head.version   = file.text_attribute("/", "talus version");
-    head.revision  = file.text_attribute("/", "git revision");
-    return head;
-  }
-
-
-
-  /// Columns are saved by name in the order of the cells, independent of the
-  /// owners: another number of ranks reads the same rows in other portions. The
-  /// number of points per cell is saved, so that loading needs no search, and
-  /// the order within a cell, on which sums depend, is restored. Collective.
   template <int dim>
   void
-  save_points(Hdf5OutputFile            &file,
-              const Points<dim>         &points,
-              const std::vector<double> &cell_weights)
+  save_columns(Hdf5Image &file, const Points<dim> &points)
   {
-    std::vector<double> points_of_cell(cell_weights.size(), 0.);
-    for (const Segment &segment : points.segments())
-      points_of_cell[segment.cell] += segment.end - segment.begin;
-    file.create_group("cells");
-    file.write("cells/points", points_of_cell, 1);
-    file.write("cells/weight", cell_weights, 1);
-
-    file.create_group("points");
-    // One column at a time: the extra memory is that of the largest column.
-    std::vector<double> rows;
-    for (const Column &column : points.columns())
-      {
-        const unsigned int n = column.n_components;
-        rows.resize(std::size_t(n) * points.size());
-        for (unsigned int c = 0; c < n; ++c)
-          for (unsigned int p = 0; p < points.size(); ++p)
-            rows[std::size_t(n) * p + c] = points.data(column.first, c)[p];
-        const std::string name = "points/" + checked(column.name);
-        file.write(name, rows, n);
-        file.set_attribute(name, "unit", column.unit);
-      }
+    file.write_text(name_of_points, columns_of(points));
   }
 
 
 
-  /// The partition is part of the state: it determines the order of sums over
-  /// ranks.
-  std::vector<double>
-  load_cell_weights(Hdf5InputFile &file, const unsigned int n_cells)
-  {
-    return file.read("cells/weight",
-                     file.first_and_total(n_cells).first,
-                     n_cells);
-  }
-
-
-
-  /// The cells of a rank follow the cells of lower ranks, in the file as along
-  /// the curve of p4est; rows of points follow from the numbers of points per
-  /// cell. A missing or additional column would be lost or invented state: both
-  /// are errors. Collective.
+  /// A missing or additional column would be lost or invented state: both are
+  /// errors.
   template <int dim>
-  std::vector<unsigned int>
-  load_points(Hdf5InputFile     &file,
-              const unsigned int n_cells,
-              Points<dim>       &points)
+  void
+  check_columns(const Hdf5Image &file, const Points<dim> &points)
   {
-    const std::vector<double> points_of_cell =
-      file.read("cells/points", file.first_and_total(n_cells).first, n_cells);
-    check_read(file);
-    AssertThrow(file.shape("cells/points").first ==
-                  file.first_and_total(n_cells).second,
-                ExcUser("The checkpoint file '" + file.path().string() +
-                        "' has a different number of cells from its mesh. "
-                        "Remove the checkpoint, so that the previous one is "
-                        "used."));
-    const double n_points =
-      std::accumulate(points_of_cell.begin(), points_of_cell.end(), 0.);
-    points.append(static_cast<unsigned int>(n_points));
-
-    AssertThrow(file.names("points").size() == points.columns().size(),
-                ExcUser("In '" + file.path().string() +
-                        "' the points have different columns from this version "
-                        "of talus. Resume with the version of talus that wrote "
-                        "the file."));
-    const std::uint64_t first = file.first_and_total(points.size()).first;
-    for (const Column &column : points.columns())
-      load_column(file, column, first, points);
-
-    std::vector<unsigned int> cells;
-    for (unsigned int c = 0; c < n_cells; ++c)
-      cells.insert(cells.end(), points_of_cell[c], c);
-    return cells;
+    AssertThrow(file.read_text(name_of_points) == columns_of(points),
+                ExcUser("In the checkpoint the points have different columns "
+                        "from this version of talus. Resume with the version "
+                        "of talus that wrote the checkpoint."));
   }
-
-
-
-  namespace
-  {
-    constexpr const char *name_of_numbers = "state/numbers";
-    constexpr const char *name_of_columns = "text/columns of the state";
-  } // namespace
 
 
 
@@ -210,7 +134,9 @@ namespace talus
   /// numbers are in one array with a column per number, because the time of
   /// HDF5 grows with the square of the number of arrays in a group. Collective.
   void
-  save_state(Hdf5OutputFile &file, const StateList &list)
+  save_state(Hdf5Image       &file,
+             const StateList &list,
+             const MPI_Comm   communicator)
   {
     std::vector<double> own;
     std::string         columns;
@@ -224,54 +150,45 @@ namespace talus
                         name_of(number.reduction),
                         '\n');
       }
-    file.create_group("state");
-    file.write(name_of_numbers, own, own.size());
-    file.create_group("text");
+    file.write(name_of_numbers, gathered(own, communicator), own.size());
     file.write_text(name_of_columns, columns);
     for (const StateList::Text &text : list.texts())
-      file.write_text("text/" + checked(text.name), text.get());
+      file.write_text("text/" + text.name, text.get());
     for (const StateList::Table &table : list.tables())
       {
-        if (&table == &list.tables().front())
-          file.create_group("tables");
-        const std::string name = "tables/" + checked(table.name);
-        const bool        is_saved =
-          !table.is_common || is_first_rank(file.communicator());
-        file.write(name,
-                   is_saved ? table.get() : std::vector<double>(),
+        const std::vector<double> rows = table.get();
+        file.write("tables/" + table.name,
+                   table.is_common ? rows : gathered(rows, communicator),
                    table.n_columns);
-        file.set_attribute(name, "columns", table.columns);
+        file.write_text("text/columns of " + table.name, table.columns);
       }
   }
 
 
 
   /// restored_share() computes the values for another number of ranks: sums and
-  /// maxima of the whole run are unchanged. Collective.
+  /// maxima of the whole run are unchanged.
   void
-  load_state(Hdf5InputFile &file, const StateList &list)
+  load_state(const Hdf5Image &file,
+             const StateList &list,
+             const MPI_Comm   communicator)
   {
-    const MPI_Comm      communicator = file.communicator();
-    const unsigned int  n_ranks = Utilities::MPI::n_mpi_processes(communicator);
-    const unsigned int  rank = Utilities::MPI::this_mpi_process(communicator);
-    const std::uint64_t n_ranks_then = file.integer_attribute("/", "ranks");
-    const std::vector<double> values =
-      file.read(name_of_numbers, 0, n_ranks_then);
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
     std::istringstream lines(file.read_text(name_of_columns));
-    check_read(file);
     std::map<std::string, std::size_t> columns; // by name of the number
     for (std::string line; std::getline(lines, line);)
       columns.emplace(line.substr(0, line.find('\t')), columns.size());
+    const std::vector<double> values =
+      file.read(name_of_numbers, columns.size());
     for (const StateList::Number &number : list.numbers())
       {
         const auto column = columns.find(number.name);
-        AssertThrow(column != columns.end() &&
-                      values.size() == n_ranks_then * columns.size(),
-                    ExcUser("In '" + file.path().string() + "' the number '" +
-                            number.name +
+        AssertThrow(column != columns.end(),
+                    ExcUser("In the checkpoint the number '" + number.name +
                             "' is missing, which this version of talus needs. "
                             "Resume with the version of talus that wrote the "
-                            "file."));
+                            "checkpoint."));
         std::vector<double> shares;
         for (std::size_t i = column->second; i < values.size();
              i += columns.size())
@@ -279,76 +196,110 @@ namespace talus
         number.set(restored_share(shares, number.reduction, rank, n_ranks));
       }
     for (const StateList::Text &text : list.texts())
-      {
-        const std::string value = file.read_text("text/" + text.name);
-        check_read(file);
-        text.set(value);
-      }
+      text.set(file.read_text("text/" + text.name));
     for (const StateList::Table &table : list.tables())
-      {
-        const std::string         name  = "tables/" + table.name;
-        const auto                shape = file.shape(name);
-        const std::vector<double> rows  = file.read(name, 0, shape.first);
-        check_read(file);
-        AssertThrow(shape.second == table.n_columns,
-                    ExcUser("In '" + file.path().string() + "' the table '" +
-                            table.name +
-                            "' has a different number of columns from this "
-                            "version of talus. Resume with the version of "
-                            "talus that wrote the file."));
-        table.set(rows);
-      }
+      table.set(file.read("tables/" + table.name, table.n_columns));
   }
+
+
+
+  /// All ranks get a copy of the file, which is small without the points.
+  Hdf5Image
+  open_state(const fs::path &checkpoint, const MPI_Comm communicator)
+  {
+    const fs::path path = checkpoint / state_file_name;
+    return Hdf5Image(bytes_of(path, communicator), path);
+  }
+
+
+
+  namespace
+  {
+    /// All files of a checkpoint but the list of checksums. deal.II's versions
+    /// differ in the names for the mesh; a missing file has the checksum of an
+    /// empty file.
+    const std::vector<std::string> files = {mesh_file_name,
+                                            "mesh.info",
+                                            "mesh_fixed.data",
+                                            "mesh_triangulation.data",
+                                            points_file_name,
+                                            state_file_name};
+
+    /// Return the last line of the list of checksums.
+    std::string
+    own_checksum(const std::string &lines)
+    {
+      return text(checksums_file_name, ' ', checksum(lines), '\n');
+    }
+  } // namespace
 
 
 
   bool
-  is_mesh_file(const std::string &name)
+  is_checkpoint_file(const std::string &name)
   {
-    static const std::set<std::string> endings = {
-      "", ".info", "_fixed.data", "_variable.data", "_triangulation.data"};
-    const std::string mesh = mesh_file_name;
-    return name.compare(0, mesh.size(), mesh) == 0 &&
-           endings.count(name.substr(mesh.size())) == 1;
+    return name == checksums_file_name ||
+           std::count(files.begin(), files.end(), name) > 0;
   }
 
 
 
-  /// Names are sorted, since the order of directory entries is undefined. Other
-  /// files in the folder are ignored: notes of the user, remains of open files
+  /// Files of the user in the folder are ignored, as are remains of open files
   /// removed on a network file system.
   std::string
-  mesh_checksums(const std::filesystem::path &checkpoint)
+  list_checksums(const fs::path &checkpoint, const MPI_Comm communicator)
   {
-    std::vector<std::filesystem::path> paths;
-    for (const auto &entry : std::filesystem::directory_iterator(checkpoint))
-      if (is_mesh_file(entry.path().filename().string()))
-        paths.push_back(entry.path());
-    std::sort(paths.begin(), paths.end());
-    std::string result;
-    for (const std::filesystem::path &path : paths)
-      result +=
-        text(path.filename().string(), ' ', checksum_of_file(path), '\n');
-    return result;
+    std::string lines = text("format ", checkpoint_format, '\n');
+    for (const std::string &name : files)
+      lines += text(name,
+                    ' ',
+                    checksum_of_file(checkpoint / name, communicator),
+                    '\n');
+    return lines + own_checksum(lines);
   }
 
 
 
-  void
-  check_read(const Hdf5InputFile &file)
+  /// Everything is checked before anything is used: instead of a damaged
+  /// checkpoint the previous one is loaded. Neither HDF5 nor p4est sees a
+  /// damaged file.
+  std::string
+  find_damage(const fs::path &checkpoint, const MPI_Comm communicator)
   {
-    AssertThrow(file.error().empty(),
-                ExcUser("The checkpoint file '" + file.path().string() +
-                        "' cannot be used: " + file.error() +
-                        ". Resume with the version of talus that wrote the "
-                        "file, or remove the checkpoint, so that the previous "
-                        "one is used."));
+    const std::string saved =
+      bytes_of(checkpoint / checksums_file_name, communicator);
+    const std::size_t last = saved.rfind(checksums_file_name);
+    if (last == saved.npos ||
+        saved.substr(last) != own_checksum(saved.substr(0, last)))
+      return text("'", checksums_file_name, "' is missing or damaged");
+
+    std::istringstream expected(saved);
+    std::string        line, expected_line;
+    unsigned int       format = 0;
+    std::getline(expected, line, ' ') >> format;
+    AssertThrow(format == checkpoint_format,
+                ExcUser(text("The checkpoint '",
+                             checkpoint.string(),
+                             "' has the format version ",
+                             format,
+                             ", but this talus reads version ",
+                             checkpoint_format,
+                             ". Resume with the version of talus that wrote "
+                             "the checkpoint, or start a new run with "
+                             "--overwrite.")));
+    expected.seekg(0);
+    std::istringstream found(list_checksums(checkpoint, communicator));
+    while (std::getline(found, line))
+      if (!std::getline(expected, expected_line) || line != expected_line)
+        return "the checksum of '" + line.substr(0, line.find(' ')) +
+               "' does not match its content";
+    return "";
   }
 
 
 
-  template decltype(save_points<2>) save_points<2>;
-  template decltype(save_points<3>) save_points<3>;
-  template decltype(load_points<2>) load_points<2>;
-  template decltype(load_points<3>) load_points<3>;
+  template decltype(save_columns<2>)  save_columns<2>;
+  template decltype(save_columns<3>)  save_columns<3>;
+  template decltype(check_columns<2>) check_columns<2>;
+  template decltype(check_columns<3>) check_columns<3>;
 } // namespace talus

@@ -2,7 +2,6 @@
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/checkpoint/checkpoint_folder.h>
-#include <talus/checkpoint/damage.h>
 #include <talus/io/files.h>
 
 #include <deal.II/base/utilities.h>
@@ -30,15 +29,6 @@ namespace talus
 
 
 
-    /// Whether @p name is a file of a checkpoint: the state, or part of a mesh.
-    bool
-    is_written_by_us(const std::string &name)
-    {
-      return name == state_file_name || is_mesh_file(name);
-    }
-
-
-
     /// Whether @p path is a file of a checkpoint or a hidden file of Open MPI
     /// (".mesh.shfp.<job>.<number>"). Open MPI keeps the shared file pointer of
     /// an open file in a hidden file, which remains if the run is killed.
@@ -47,9 +37,9 @@ namespace talus
     {
       const std::string name = path.filename().string();
       const auto        end  = name.find(".shfp.");
-      return is_written_by_us(name) ||
+      return is_checkpoint_file(name) ||
              (name.front() == '.' && end != std::string::npos &&
-              is_written_by_us(name.substr(1, end - 1)));
+              is_checkpoint_file(name.substr(1, end - 1)));
     }
 
 
@@ -165,22 +155,13 @@ namespace talus
 
 
 
-    /// Throw ExcUser if format or dimension is wrong, which older checkpoints
-    /// could not repair.
+    /// Throw ExcUser if the dimension is wrong, which older checkpoints could
+    /// not repair.
     void
-    check_kind(const fs::path       &checkpoint,
-               const CheckpointHead &head,
-               const unsigned int    dimension)
+    check_dimension(const fs::path       &checkpoint,
+                    const CheckpointHead &head,
+                    const unsigned int    dimension)
     {
-      AssertThrow(head.format == checkpoint_format,
-                  ExcUser(text("The checkpoint '",
-                               checkpoint.string(),
-                               "' has the format version ",
-                               head.format,
-                               ", but this talus reads version ",
-                               checkpoint_format,
-                               ". Resume with the version of talus that wrote "
-                               "the checkpoint.")));
       AssertThrow(head.dimension == dimension,
                   ExcUser(text("The checkpoint '",
                                checkpoint.string(),
@@ -313,14 +294,12 @@ namespace talus
     FoundCheckpoint found;
     for (const fs::path &path : list_for_all_ranks(output_folder, communicator))
       {
-        Hdf5InputFile file(path / state_file_name, communicator);
-        found.head = load_head(file);
-        if (file.error().empty())
-          check_kind(path, found.head, dimension);
-        const std::string damage = find_damage(file, found.head);
+        const std::string damage = find_damage(path, communicator);
         if (damage.empty())
           {
             found.path = path;
+            found.head = load_head(open_state(path, communicator));
+            check_dimension(path, found.head, dimension);
             return found;
           }
         found.errors.push_back("The checkpoint '" + path.string() +
@@ -353,10 +332,10 @@ namespace talus
     const auto all = list_for_all_ranks(output_folder, communicator);
     if (all.empty())
       return;
-    Hdf5InputFile        file(all[0] / state_file_name, communicator);
-    const CheckpointHead head = load_head(file);
-    const bool           is_readable =
-      file.error().empty() && head.format == checkpoint_format;
+    const bool is_readable    = find_damage(all[0], communicator).empty();
+    const CheckpointHead head = is_readable
+                                  ? load_head(open_state(all[0], communicator))
+                                  : CheckpointHead();
     AssertThrow(
       is_readable && head.time >= head.end_time,
       ExcUser(text(

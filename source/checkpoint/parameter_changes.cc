@@ -57,9 +57,8 @@ namespace talus
     bool
     is_harmless(const std::string &path)
     {
-      // A series of files has one index with one format, and a table cannot
-      // change its columns.
-      if (path == "Output/Format" || path == "Output/Runout")
+      // A table cannot change its columns, nor begin in the middle of a run.
+      if (path == "Output/Runout" || path == "Output/Plan interval")
         return false;
       // A run may continue to a later time and to more points.
       for (const std::string name : {"Title",

@@ -84,9 +84,9 @@ namespace talus
                                const State<dim>    &state,
                                Response            &response) const
   {
-    const double                dt    = state.time_step;
-    const ContactFacet<dim>    &facet = facets_.owned()[c];
-    const FacetConstraint<dim> &at    = constraints_[c];
+    const double                  dt    = state.time_step;
+    const ContactFacet<dim>      &facet = facets_.owned()[c];
+    const ContactConstraint<dim> &at    = constraints_[c];
     const Tensor<1, dim> arm = facet.centroid - obstacle.reference_point();
     const auto           impulse =
       projected_impulse(constraints_,

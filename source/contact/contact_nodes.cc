@@ -32,12 +32,7 @@ namespace talus
     BoundaryWork<dim> work;
     for (const unsigned int node : facets_.owned_nodes_on_faces())
       if (held_[node] && state.nodes.mass(node) > state.constants.mass_cutoff)
-        boundaries.impose_walls(state.nodes,
-                                state.grid.faces_of_node(node),
-                                node,
-                                state.time,
-                                state.time_step,
-                                work);
+        boundaries.impose_walls(state, node, work);
     work.record(state.accounts);
   }
 
@@ -76,7 +71,7 @@ namespace talus
 
   template <int dim>
   void
-  ContactNodes<dim>::update_velocities()
+  ContactNodes<dim>::update_velocities(const bool for_ghosts)
   {
     exchange_of_impulses_.add_to_owners(impulses_.data());
     for (std::size_t i = 0; i < active_.size(); ++i)
@@ -92,7 +87,8 @@ namespace talus
             impulse[d] = 0;
           }
       }
-    exchange_of_records_.copy_to_ghosts(records_.data());
+    if (for_ghosts)
+      exchange_of_records_.copy_to_ghosts(records_.data());
   }
 
 
@@ -120,8 +116,7 @@ namespace talus
           for (unsigned int d = 0; d < dim; ++d)
             if (is_held(node, d))
               taken_up[d] = -totals_[std::size_t(dim) * node + d];
-          boundaries.record_walls(
-            state.nodes, state.grid.faces_of_node(node), node, taken_up, work);
+          boundaries.record_walls(state, node, taken_up, work);
         }
     work.record(state.accounts);
   }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/boundaries/contact_area.h>
 #include <talus/contact/box_extent.h>
 #include <talus/contact/face_coverage.h>
 #include <talus/points/points_kernel.h>
@@ -97,20 +96,6 @@ namespace talus
       }
     give_to_masters(state.grid);
     exchange_.add_to_owners(areas_.data());
-  }
-
-
-
-  template <int dim>
-  double
-  FaceCoverage<dim>::share(const Grid<dim>   &grid,
-                           const unsigned int face,
-                           const unsigned int node,
-                           const double       f) const
-  {
-    const double whole = grid.face_share(face, node).area;
-    return f > 0 ? share_in_contact(std::min(1., area(face, node) / whole), f)
-                 : 0.;
   }
 
 

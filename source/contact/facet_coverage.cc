@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/boundaries/contact_area.h>
 #include <talus/contact/box_extent.h>
+#include <talus/contact/contact_area.h>
 #include <talus/contact/facet_coverage.h>
 
 #include <algorithm>

@@ -28,9 +28,12 @@ namespace talus
     near_          = std::move(near);
     n_slots_ =
       slots_.empty() ? 0 : *std::max_element(slots_.begin(), slots_.end()) + 1;
-    exchange_.prepare(grid, n_slots_);
-    gaps_.assign(n_slots_ * grid.n_nodes(), none);
+    width_ = n_slots_ + 1;
+    exchange_.prepare(grid, width_);
+    records_.assign(width_ * grid.n_nodes(), none);
+    fractions_.assign(grid.n_nodes(), 0.);
     is_open_.assign(grid.n_nodes(), 0);
+    present_.clear();
     of_point_.resize(n_slots_);
   }
 
@@ -40,14 +43,16 @@ namespace talus
   void
   NodalGaps<dim>::find(const State<dim>                  &state,
                        const std::vector<NodeAndSurface> &pairs,
-                       const std::vector<unsigned char>  &nearness)
+                       const std::vector<unsigned char>  &nearness,
+                       const VolumeFraction              &volume_fraction)
   {
-    const std::size_t  n       = n_slots_;
     const unsigned int n_owned = state.grid.n_owned_nodes();
     // At an owned node a slot without a surface near the node counts as closed:
     // the unused gap must not prolong the search. At a ghost node all slots are
     // open: only the owner knows all surfaces near a node, and whole records
     // are exchanged.
+    for (const unsigned int node : present_)
+      std::fill_n(record(node), width_, none);
     present_.clear();
     n_open_ = 0;
     for (const NodeAndSurface &pair : pairs)
@@ -55,14 +60,14 @@ namespace talus
         {
           if (!is_open_[pair.node])
             {
-              std::fill_n(gaps_.begin() + n * pair.node, n, -none);
+              std::fill_n(record(pair.node), n_slots_, -none);
               is_open_[pair.node] = 1;
               ++n_open_;
               present_.push_back(pair.node);
             }
-          gaps_[n * pair.node + slots_[pair.surface]] = none;
+          record(pair.node)[slots_[pair.surface]] = none;
         }
-    std::fill(gaps_.begin() + n * n_owned, gaps_.end(), none);
+    std::fill(records_.begin() + width_ * n_owned, records_.end(), none);
     closed_ = dead_band * state.grid.finest_size();
     // The nearest cells first: they close most nodes, and the points behind
     // need not be examined.
@@ -80,8 +85,17 @@ namespace talus
       }
     for (const unsigned int node : present_)
       is_open_[node] = 0;
-    exchange_.minimum_to_owners(gaps_.data());
-    exchange_.copy_to_ghosts(gaps_.data());
+    exchange_.minimum_to_owners(records_.data(), none);
+    if (volume_fraction)
+      for (const unsigned int node : present_)
+        if (node < n_owned)
+          record(node)[n_slots_] = volume_fraction(node);
+    exchange_.copy_to_ghosts(records_.data(), none);
+    for (const NodeAndSurface &pair : pairs)
+      {
+        const double fraction = record(pair.node)[n_slots_];
+        fractions_[pair.node] = (fraction == none ? 0. : fraction);
+      }
   }
 
 
@@ -228,11 +242,10 @@ namespace talus
   void
   NodalGaps<dim>::lower(const unsigned int node)
   {
-    const std::size_t n       = n_slots_;
-    bool              is_open = false;
-    for (std::size_t k = 0; k < n; ++k)
+    bool is_open = false;
+    for (std::size_t k = 0; k < n_slots_; ++k)
       {
-        double &gap = gaps_[n * node + k];
+        double &gap = record(node)[k];
         gap         = std::min(gap, of_point_[k]);
         is_open     = is_open || gap > closed_;
       }

@@ -19,8 +19,6 @@ namespace talus
       return;
     prepare_gaps(grid, slots(grid));
     coverage_.prepare(grid);
-    exchange_.prepare(grid, 1);
-    fractions_of_nodes_.assign(grid.n_nodes(), 0.);
     fractions_.clear();
   }
 
@@ -35,7 +33,6 @@ namespace talus
     if (obstacles_.empty())
       return;
     find_gaps(state);
-    find_fractions_of_nodes(state);
     find_fractions(facets_.owned(), fractions_);
     find_fractions(facets_.ghosts(), fractions_of_ghosts_);
     coverage_.find(state, fractions_, fractions_of_ghosts_);
@@ -84,7 +81,14 @@ namespace talus
     tables_.limit(state.points.size());
     gaps_.find(state,
                facets_.nodes_and_obstacles(),
-               facets_.nearness_of_cells());
+               facets_.nearness_of_cells(),
+               [&](const unsigned int node) {
+                 const double room = facets_.open_volume(node);
+                 return state.nodes.mass(node) > state.constants.mass_cutoff &&
+                            room > 0
+                          ? std::min(1., state.nodes.volume(node) / room)
+                          : 0.;
+               });
   }
 
 
@@ -140,23 +144,6 @@ namespace talus
 
   template <int dim>
   void
-  SoilAtPlaces<dim>::find_fractions_of_nodes(const State<dim> &state)
-  {
-    for (const unsigned int node : facets_.owned_nodes())
-      {
-        const double room = facets_.open_volume(node);
-        fractions_of_nodes_[node] =
-          state.nodes.mass(node) > state.constants.mass_cutoff && room > 0
-            ? std::min(1., state.nodes.volume(node) / room)
-            : 0.;
-      }
-    exchange_.copy_to_ghosts(fractions_of_nodes_.data());
-  }
-
-
-
-  template <int dim>
-  void
   SoilAtPlaces<dim>::find_fractions(
     const std::vector<ContactFacet<dim>> &facets,
     std::vector<double>                  &fractions) const
@@ -167,7 +154,7 @@ namespace talus
         const ContactFacet<dim> &facet = facets[f];
         double                   sum   = 0;
         for (unsigned int v = 0; v < facet.node.size(); ++v)
-          sum += facet.shape_value[v] * fractions_of_nodes_[facet.node[v]];
+          sum += facet.shape_value[v] * volume_fraction(facet.node[v]);
         fractions[f] = sum;
       }
   }

@@ -14,14 +14,6 @@ namespace talus
     : ParameterAcceptor("/Equilibrium")
     , newton_(linear_solver_)
   {
-    add_parameter("Strain",
-                  measure_,
-                  "'small': strain is the symmetric displacement gradient; "
-                  "points, volumes and boxes stay as they are, and only the "
-                  "stress changes. 'large': strain as in the dynamics; the "
-                  "soil deforms under the load.",
-                  this->prm,
-                  Patterns::Selection("small|large"));
     add_parameter("Load steps",
                   parameters_.n_load_steps,
                   "Number of equal steps in which the load is applied [-]; a "
@@ -41,16 +33,24 @@ namespace talus
       parameters_.allowed_imbalance,
       "Largest unbalanced force of soil in balance, over the force of the "
       "loads or of the stress, whichever is larger (Euclidean norms over "
-      "the nodes) [-]; 0 for 1e-6 at small strain and 1e-3 at large "
-      "strain, where nodes with very little soil come to rest slowly.",
+      "the nodes) [-].",
       this->prm,
-      Patterns::Double(0.));
+      Patterns::Double(1e-14));
     add_parameter("Largest number of settling steps",
                   largest_settling_,
                   "Largest number of steps without further load [-]; if the "
                   "soil is not in balance afterwards, the search ends.",
                   this->prm,
                   Patterns::Integer(1));
+    add_parameters_of_newton();
+  }
+
+
+
+  template <int dim>
+  void
+  Equilibrium<dim>::add_parameters_of_newton()
+  {
     add_parameter("Newton tolerance",
                   parameters_.tolerance,
                   "Largest residual of Newton's method over the force of the "
@@ -75,7 +75,7 @@ namespace talus
                   "the nodal force left by a pressure proportional to the "
                   "depth. Otherwise the soil at the mudline has to bear shear "
                   "stresses of half the weight of a cell, for cells of any "
-                  "size. Small strain only.");
+                  "size.");
   }
 
 
@@ -83,38 +83,20 @@ namespace talus
   template <int dim>
   void
   Equilibrium<dim>::check(const Materials<dim>           &materials,
-                          const std::vector<std::string> &names_of_bodies) const
+                          const std::vector<std::string> &names_of_bodies)
   {
-    if (measure() == StrainMeasure::large)
-      return;
     // A hyperelastic stress is a function of F alone, and F does not change at
     // small strain: the body could never take up a load.
     for (unsigned int b = 0; b < names_of_bodies.size(); ++b)
       AssertThrow(!materials.of_body(b).is_hyperelastic(),
-                  ExcUser(text("'Equilibrium/Strain' is small, but the stress "
-                               "of the body '",
+                  ExcUser(text("Static stages change stresses, but do not "
+                               "move the soil, and the stress of the body '",
                                names_of_bodies[b],
-                               "' follows from its deformation, which small "
-                               "strain does not change. Set 'Strain' to large, "
-                               "or choose a law in rate form ('linear "
-                               "elastic', 'von Mises').")));
-  }
-
-
-
-  /// At large strain nodes at a free surface settle slowly, as they would have
-  /// to move far. Hence the default imbalance is a thousand times larger than
-  /// at small strain.
-  template <int dim>
-  StaticOptions
-  Equilibrium<dim>::options(const StrainMeasure measure) const
-  {
-    StaticOptions options = parameters_;
-    options.measure       = measure;
-    if (options.allowed_imbalance == 0.)
-      options.allowed_imbalance =
-        (measure == StrainMeasure::small ? 1e-6 : 1e-3);
-    return options;
+                               "' follows from its deformation. Choose a law "
+                               "in rate form ('linear elastic', 'von Mises'), "
+                               "or list only 'dynamics' in 'Stages', with "
+                               "'Gravity/Ramp time' and 'Damping/Local "
+                               "damping'.")));
   }
 
 
@@ -199,20 +181,19 @@ namespace talus
 
   /// Nodes with very little soil follow their own forces more slowly the
   /// stiffer the stabilization is compared with their own stiffness. Hence the
-  /// penalty decreases at full load; at large strain the nodes would then move
-  /// too far. The lower bound of 1e-3 keeps nodes without stiffness from making
-  /// the matrix singular. Nodes inside obstacles have very little soil, but the
-  /// full pressure: held by their springs and the penalty, they follow only if
-  /// the penalty is close to zero, hence the lower bound of 1e-9.
+  /// penalty decreases at full load. The lower bound of 1e-3 keeps nodes
+  /// without stiffness from making the matrix singular. Nodes inside obstacles
+  /// have very little soil, but the full pressure: held by their springs and
+  /// the penalty, they follow only if the penalty is close to zero, hence the
+  /// lower bound of 1e-9.
   template <int dim>
   StaticOptions
   Equilibrium<dim>::options_of_step(const bool has_obstacles) const
   {
     StaticOptions options = options_;
-    if (options.measure == StrainMeasure::small)
-      options.ghost_penalty *=
-        (has_obstacles ? std::max(1e-9, std::pow(0.1, n_settling_))
-                       : std::max(1e-3, std::pow(0.5, n_settling_)));
+    options.ghost_penalty *=
+      (has_obstacles ? std::max(1e-9, std::pow(0.1, n_settling_))
+                     : std::max(1e-3, std::pow(0.5, n_settling_)));
     return options;
   }
 
@@ -248,15 +229,12 @@ namespace talus
 
 
   /// Return whether the soil flows, as a settling step with the whole imbalance
-  /// has failed: at small strain, if the previous step did not lower the
-  /// imbalance. (At large strain, steps also fail where points would be
-  /// inverted.)
+  /// has failed: if the previous step did not lower the imbalance.
   template <int dim>
   bool
   Equilibrium<dim>::flows_on() const
   {
-    return load_ >= 1. && !is_falling(1) &&
-           options_.measure == StrainMeasure::small;
+    return load_ >= 1. && !is_falling(1);
   }
 
 

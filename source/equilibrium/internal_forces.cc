@@ -49,7 +49,7 @@ namespace talus
   /// numbers that carry derivatives), so there is no second pass and no
   /// inconsistency.
   template <int dim>
-  bool
+  void
   InternalForces<dim>::evaluate(StaticProblem<dim>            &problem,
                                 const ShapeFunctionCache<dim> &weights,
                                 const std::vector<double>     &u,
@@ -62,33 +62,26 @@ namespace talus
       points, points.all(), [&](const unsigned int cell) {
         return problem.state.grid.cells()[cell].size;
       });
-    bool sound = true;
     problem.materials.for_each_material_range(
       points,
       points.all(),
       [&](const MaterialModel<dim> &model,
           const unsigned int        begin,
           const unsigned int        end) {
-        sound = sound && model.linearize(points,
-                                         problem.state.workspace,
-                                         begin,
-                                         end,
-                                         measure_,
-                                         linearizations_.data() + begin);
+        model.linearize(points,
+                        problem.state.workspace,
+                        begin,
+                        end,
+                        linearizations_.data() + begin);
       });
-    // No force was added, so the caller may try a shorter step.
-    if (!sound)
-      return false;
     find_volumes(problem);
     for (unsigned int c = 0; c < weights.cells().size(); ++c)
       add_forces_of_cell(c, weights, forces);
-    return true;
   }
 
 
 
-  /// Compute the volumes at the start of the load step: F changes only in
-  /// commit(). In volumes_of_mean_, zero marks points without B-bar.
+  /// Compute the volumes. In volumes_of_mean_, zero marks points without B-bar.
   template <int dim>
   void
   InternalForces<dim>::find_volumes(const StaticProblem<dim> &problem)

@@ -2,15 +2,244 @@
 #include <talus/base/errors.h>
 #include <talus/equilibrium/linear_solver.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_solver.h>
 
+#include <Amesos.h>
+#include <Amesos_BaseSolver.h>
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_LinearProblem.h>
 #include <Teuchos_ParameterList.hpp>
+#include <metis.h>
 #include <ml_MultiLevelPreconditioner.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <sstream>
+#include <vector>
 
 namespace talus
 {
   using namespace dealii;
+
+  namespace
+  {
+    /// Whether MUMPS factorises the matrices of @p dim dimensions: in 3-D
+    /// factors fill far more, and MUMPS does most of its work in BLAS.
+    bool
+    takes_mumps(const unsigned int dim)
+    {
+      return dim == 3 && ::Amesos().Query("Amesos_Mumps");
+    }
+
+
+
+    /// Return the place of each row in a nested dissection of the graph of
+    /// @p matrix, a matrix of one rank, from 1 @cite karypis1998. Empty if
+    /// METIS fails.
+    std::vector<int>
+    nested_dissection(const Epetra_CrsMatrix &matrix)
+    {
+      idx_t              n = matrix.NumMyRows();
+      std::vector<idx_t> begin(1, 0), neighbors, order(n), place(n);
+      for (idx_t row = 0; row < n; ++row)
+        {
+          int     n_entries, *columns;
+          double *values;
+          matrix.ExtractMyRowView(row, n_entries, values, columns);
+          for (int e = 0; e < n_entries; ++e)
+            if (columns[e] != row)
+              neighbors.push_back(columns[e]);
+          begin.push_back(neighbors.size());
+        }
+      if (METIS_NodeND(&n,
+                       begin.data(),
+                       neighbors.data(),
+                       nullptr,
+                       nullptr,
+                       order.data(),
+                       place.data()) != METIS_OK)
+        return {};
+      for (idx_t &p : place)
+        ++p;
+      return {place.begin(), place.end()};
+    }
+
+
+
+    /// Collects what is written to std::cerr during the life of the object.
+    class ErrorStream
+    {
+    public:
+      ErrorStream()
+        : previous_(std::cerr.rdbuf(collected_.rdbuf()))
+      {}
+
+      ~ErrorStream()
+      {
+        std::cerr.rdbuf(previous_);
+      }
+
+      std::string
+      words() const
+      {
+        return collected_.str();
+      }
+
+    private:
+      std::ostringstream collected_;
+      std::streambuf    *previous_;
+    };
+
+
+
+    /// Throw ExcUser if MUMPS failed for another reason than a singular matrix,
+    /// on any rank: no memory for the factors. The interface tells the reason
+    /// only by @p words. Collective.
+    void
+    check_for_lack_of_memory(const std::string &words,
+                             const MPI_Comm     communicator)
+    {
+      const std::string key = "INFOG(1) = ";
+      const auto        at  = words.find(key);
+      const int         reason =
+        Utilities::MPI::min(at == std::string::npos
+                              ? 0
+                              : std::atoi(&words[at + key.size()]),
+                            communicator);
+      AssertThrow(reason == 0 || reason == -6 || reason == -10,
+                  ExcUser(text("The factors of the matrix of the static stage "
+                               "need more memory than there is (MUMPS ends "
+                               "with INFOG(1) = ",
+                               reason,
+                               "). Choose larger cells, or 'Linear solver/Type "
+                               "= GMRES'.")));
+    }
+  } // namespace
+
+
+
+  /// Linear system in the form of Amesos, and the factors.
+  class LuFactorization::Amesos
+  {
+  public:
+    Amesos(const TrilinosWrappers::SparseMatrix &matrix,
+           const bool                            with_mumps,
+           const bool                            is_symmetric)
+      // Epetra's class of a linear problem takes no constant matrices.
+      : problem(const_cast<Epetra_CrsMatrix *>(&matrix.trilinos_matrix()),
+                nullptr,
+                nullptr)
+      , solver(::Amesos().Create(with_mumps ? "Amesos_Mumps" : "Amesos_Klu",
+                                 problem))
+      , symmetric(is_symmetric)
+    {
+      if (!with_mumps)
+        return;
+      if (symmetric)
+        parameters.set("MatrixProperty", "symmetric");
+      Teuchos::ParameterList &mumps = parameters.sublist("mumps");
+      // Memory beyond the estimate, for pivots that are delayed [%].
+      mumps.set("ICNTL(14)", 60);
+      if (matrix.trilinos_matrix().Comm().NumProc() > 1)
+        return;
+      order = nested_dissection(matrix.trilinos_matrix());
+      if (order.empty())
+        return;
+      mumps.set("ICNTL(7)", 1);
+      mumps.set("PermIn", order.data());
+    }
+
+    Epetra_LinearProblem               problem;
+    std::unique_ptr<Amesos_BaseSolver> solver;
+    std::vector<int>                   order; ///< places of the rows
+    Teuchos::ParameterList             parameters;
+    bool                               symmetric;
+    bool                               has_ordering = false;
+    bool                               has_pivots   = false;
+  };
+
+
+
+  LuFactorization::LuFactorization(const unsigned int dim)
+    : with_mumps_(takes_mumps(dim))
+  {}
+
+
+
+  LuFactorization::~LuFactorization() = default;
+
+
+
+  void
+  LuFactorization::clear()
+  {
+    amesos_.reset();
+  }
+
+
+
+  /// In KLU the search for pivots takes half of the time. The pivots of the
+  /// previous matrix save the search, but may be poor for the present matrix:
+  /// the residual decides.
+  bool
+  LuFactorization::solve(const TrilinosWrappers::SparseMatrix &matrix,
+                         TrilinosWrappers::MPI::Vector        &x,
+                         const TrilinosWrappers::MPI::Vector  &rhs,
+                         const bool                            is_symmetric)
+  {
+    if (!amesos_ || amesos_->symmetric != is_symmetric ||
+        amesos_->problem.GetOperator() != &matrix.trilinos_matrix())
+      amesos_ = std::make_unique<Amesos>(matrix, with_mumps_, is_symmetric);
+    if (amesos_->has_pivots && !with_mumps_ &&
+        solve_with_pivots(matrix, x, rhs, true))
+      return true;
+    return solve_with_pivots(matrix, x, rhs, false);
+  }
+
+
+
+  /// KLU's own test, which compares the smallest pivot with the largest, is
+  /// switched off: nodes with very little soil have small pivots in well-posed
+  /// problems, too.
+  bool
+  LuFactorization::solve_with_pivots(
+    const TrilinosWrappers::SparseMatrix &matrix,
+    TrilinosWrappers::MPI::Vector        &x,
+    const TrilinosWrappers::MPI::Vector  &rhs,
+    const bool                            old_pivots)
+  {
+    Teuchos::ParameterList &list = amesos_->parameters;
+    list.set("Refactorize", old_pivots);
+    list.set("RcondThreshold", 0.);
+    amesos_->solver->SetParameters(list);
+    amesos_->problem.SetLHS(&x.trilinos_vector());
+    // Epetra's class of a linear problem takes no constant vectors.
+    amesos_->problem.SetRHS(
+      const_cast<Epetra_MultiVector *>(&rhs.trilinos_vector()));
+    std::string words;
+    {
+      // A singular matrix is no error here, but MUMPS' interface prints one.
+      const ErrorStream stream;
+      amesos_->has_ordering =
+        amesos_->has_ordering || amesos_->solver->SymbolicFactorization() == 0;
+      amesos_->has_pivots =
+        amesos_->has_ordering && amesos_->solver->NumericFactorization() == 0;
+      words = stream.words();
+    }
+    if (!amesos_->has_pivots)
+      check_for_lack_of_memory(words, matrix.get_mpi_communicator());
+    if (!amesos_->has_pivots || amesos_->solver->Solve() != 0)
+      return false;
+    constexpr double              largest_residual = 1e-10;
+    TrilinosWrappers::MPI::Vector residual(rhs);
+    return !old_pivots || matrix.residual(residual, x, rhs) <=
+                            largest_residual * rhs.l2_norm();
+  }
+
+
 
   LinearSolver::LinearSolver()
     : ParameterAcceptor("/Linear solver")
@@ -20,9 +249,9 @@ namespace talus
       type_,
       "Solver of the linear systems of the static stages: 'direct' "
       "(Trilinos' Amesos), 'CG' or 'GMRES' with algebraic multigrid "
-      "(Trilinos' ML). CG requires symmetric matrices, as at small strain. "
-      "'auto': direct up to 100 000 unknowns in 2-D and 10 000 in 3-D, "
-      "otherwise CG at small and GMRES at large strain.",
+      "(Trilinos' ML). CG requires symmetric matrices. 'auto': direct up to "
+      "100 000 unknowns in 2-D and 300 000 in 3-D, otherwise CG, and GMRES "
+      "where friction makes the matrix unsymmetric.",
       this->prm,
       Patterns::Selection("auto|direct|CG|GMRES"));
     add_parameter("Tolerance",
@@ -45,7 +274,7 @@ namespace talus
   /// factors is small. Fill-in grows much faster with the number of unknowns in
   /// 3-D than in 2-D, hence two limits. Beyond the limits, the iterations of
   /// multigrid hardly grow with the mesh (doc/performance.md, "Multigrid"). CG
-  /// requires a symmetric matrix, and the tangent at large strain may be
+  /// requires a symmetric matrix, and friction at contacts may make it
   /// unsymmetric.
   std::string
   LinearSolver::choice(const unsigned long n_unknowns,
@@ -54,7 +283,7 @@ namespace talus
   {
     if (type_ != "auto")
       return type_;
-    if (n_unknowns <= (dim == 2 ? 100000 : 10000))
+    if (n_unknowns <= (dim == 2 ? 100000 : 300000))
       return "direct";
     return symmetric ? "CG" : "GMRES";
   }
@@ -110,7 +339,7 @@ namespace talus
     x                        = 0.;
     if (type == "direct")
       return {0,
-              system.factorization.solve(matrix, x, rhs)
+              system.factorization.solve(matrix, x, rhs, system.symmetric)
                 ? ""
                 : "the matrix is singular"};
 

@@ -100,7 +100,7 @@ namespace talus
   /// Apply Newton's method with fixed contact states (stick, slip, open) of the
   /// nodes on the seabed, then update the states, until no state changes. With
   /// fixed states the problem is smooth, so convergence is quadratic; and the
-  /// matrix at small strain stays symmetric, while friction as a function of
+  /// matrix stays symmetric, while friction as a function of
   /// the normal force would make it unsymmetric. Each loop starts from the
   /// displacements of the previous loop. Loops before the last need not be
   /// exact. The number of loops is limited, as a set of states may recur.
@@ -165,8 +165,7 @@ namespace talus
     double tolerance = options_.tolerance;
     moves_freely_    = false;
     n_updates_       = 0;
-    if (!equations_.compute_residual(problem, u_, residual_))
-      return failure("A point would be turned inside out");
+    equations_.compute_residual(problem, u_, residual_);
     const Outcome       stopped{false, "The search was stopped", true};
     std::vector<double> residuals;
     for (unsigned int i = 0;; ++i)
@@ -211,10 +210,9 @@ namespace talus
 
   /// Take a full Newton step with a new matrix: the tangent comes with the
   /// stress anyway, and a modified Newton method would lose the quadratic
-  /// convergence. There are three failures: the linear solver gives up; the
+  /// convergence. There are two failures: the linear solver gives up, or the
   /// correction exceeds ten times the extent of the mesh, so the matrix is
-  /// singular up to round-off and soil moves as a mechanism; or no state along
-  /// the correction is valid. Collective.
+  /// singular up to round-off and soil moves as a mechanism. Collective.
   template <int dim>
   std::string
   Newton<dim>::newton_update(StaticProblem<dim> &problem,
@@ -237,16 +235,15 @@ namespace talus
     iteration.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
         .count();
-    n_updates_ += (iteration.length > 0.);
-    return iteration.length > 0. ? "" : "points would be turned inside out";
+    ++n_updates_;
+    return "";
   }
 
 
 
   /// Move along @p direction until the work of the residual on the direction is
   /// small, and set displacements and residual. Returns the length of the step
-  /// as a fraction of the direction; 0 if no state along the direction is
-  /// valid.
+  /// as a fraction of the direction.
   ///
   /// For elastic soil, the work of the residual on the direction is minus the
   /// derivative of the energy along it, and zero at the minimum. Plastic soil
@@ -255,7 +252,7 @@ namespace talus
   /// fell. The test is so loose that full steps are taken near the solution,
   /// where convergence is quadratic. Otherwise the length is reduced to the
   /// root of the line through both values of the work, by a factor between 0.1
-  /// and 0.5. After six trials any valid step is taken, and the limit on
+  /// and 0.5. After six trials any step is taken, and the limit on
   /// iterations decides. Each trial costs one evaluation of all stresses.
   /// Collective.
   template <int dim>
@@ -268,16 +265,11 @@ namespace talus
     const double         norm_before = unknowns.norm(residual_);
     std::vector<double>  u           = u_;
     double               length      = 1.;
-    for (unsigned int trial = 0; trial < 12; ++trial)
+    for (unsigned int trial = 0;; ++trial)
       {
         for (std::size_t i = 0; i < u.size(); ++i)
           u[i] = u_[i] + length * direction[i];
-        if (!equations_.compute_residual(problem, u, residual_))
-          {
-            // A point would be inverted, so there is no work to interpolate.
-            length *= 0.5;
-            continue;
-          }
+        equations_.compute_residual(problem, u, residual_);
         const double work = unknowns.product(direction, residual_);
         if (std::abs(work) <= 0.8 * std::abs(work_before) ||
             unknowns.norm(residual_) < norm_before || trial >= 6)
@@ -288,7 +280,6 @@ namespace talus
         const double factor = work_before / (work_before - work);
         length *= std::clamp(std::isfinite(factor) ? factor : 0.1, 0.1, 0.5);
       }
-    return 0.;
   }
 
 

@@ -407,8 +407,8 @@ namespace talus
                            problem.state.grid.faces_of_node(node)),
                          u,
                          1e-6 * weight);
-          // Where the soil has come down, the next loop holds the normal
-          // displacement at zero: on the face.
+          // A node that has come down on the face stays there: the next loop
+          // holds its normal displacement at zero.
           for (unsigned int d = 0; d < dim; ++d)
             if (place.state != ContactState::open && place.normal[d] != 0)
               u[dim * node + d] = 0.;
@@ -486,24 +486,22 @@ namespace talus
 
 
 
-  /// At small strain points do not move, so the motion of the soil towards the
-  /// obstacle must be remembered.
+  /// Points do not move, so the motion of the soil towards the obstacle must be
+  /// remembered.
   template <int dim>
   void
   StaticContact<dim>::commit(const StaticProblem<dim>  &problem,
-                             const std::vector<double> &u,
-                             const StrainMeasure        measure)
+                             const std::vector<double> &u)
   {
-    const auto                    &constraints = problem.contact.constraints();
-    const unsigned int             n_facets    = constraints.place_of_node(0);
-    std::vector<FacetImpulse<dim>> forces;
+    const auto        &constraints = problem.contact.constraints();
+    const unsigned int n_facets    = constraints.place_of_node(0);
+    std::vector<ContactImpulse<dim>> forces;
     for (auto &place : places_)
       {
         const double moved = place.displacement(u) * place.normal;
         const double N     = place.force * place.normal;
         place.given        = place.force;
-        place.opened =
-          (measure == StrainMeasure::small ? place.opened + moved : 0.);
+        place.opened += moved;
         if (place.slip > 0)
           problem.contact.slip().add(place.number, place.slip);
         if (const unsigned int k = forces.size(); k < n_facets)

@@ -36,18 +36,14 @@ namespace talus
   /// u = 0. The order matters: the nodal sums select the nodes with
   /// unknowns; weights, faces and contact refer to the unknowns; the pattern
   /// needs all three. A pattern for each load step is cheap compared with the
-  /// matrices of its iterations, and at large strain points touch different
-  /// nodes in each step. Collective.
+  /// matrices of its iterations. Collective.
   template <int dim>
   void
   StaticEquations<dim>::begin(StaticProblem<dim>  &problem,
                               const StaticOptions &options)
   {
-    measure_ = options.measure;
-    is_well_balanced_ =
-      options.is_well_balanced && measure_ == StrainMeasure::small;
-    internal_forces_ = InternalForces<dim>(measure_);
-    places_          = places_of_owned_nodes(problem.state.grid);
+    is_well_balanced_ = options.is_well_balanced;
+    places_           = places_of_owned_nodes(problem.state.grid);
     sum_forces(problem);
     unknowns_.number(problem.state.nodes,
                      problem.state.grid,
@@ -80,7 +76,6 @@ namespace talus
     internal_ = unbalanced_ = contact_at_start_ = no_displacements;
     contact_.add_forces(1., no_displacements, contact_at_start_);
     unknowns_.add_to_owners(contact_at_start_);
-    // At zero displacement no point can be inverted.
     internal_forces_.evaluate(problem, weights_, no_displacements, internal_);
     unknowns_.add_to_owners(internal_);
     double external = 0, internal = 0;
@@ -234,27 +229,21 @@ namespace talus
 
   /// Compute
   ///   r = target + c(u) - f(u) - K_g u
-  /// at all nodes; at held nodes -r is the change of c. All ranks decide
-  /// together: a rank that continued alone would wait for messages for ever.
+  /// at all nodes; at held nodes -r is the change of c.
   template <int dim>
-  bool
+  void
   StaticEquations<dim>::compute_residual(StaticProblem<dim>        &problem,
                                          const std::vector<double> &u,
                                          std::vector<double>       &residual)
   {
     std::vector<double> forces = unknowns_.field();
-    const bool sound = internal_forces_.evaluate(problem, weights_, u, forces);
-    if (!Utilities::MPI::logical_or(!sound, unknowns_.communicator()))
-      {
-        ghost_.add_forces(u, forces);
-        contact_.add_forces(-1., u, forces);
-        unknowns_.add_to_owners(forces);
-        residual = target_;
-        for (std::size_t i = 0; i < residual.size(); ++i)
-          residual[i] -= forces[i];
-        return true;
-      }
-    return false;
+    internal_forces_.evaluate(problem, weights_, u, forces);
+    ghost_.add_forces(u, forces);
+    contact_.add_forces(-1., u, forces);
+    unknowns_.add_to_owners(forces);
+    residual = target_;
+    for (std::size_t i = 0; i < residual.size(); ++i)
+      residual[i] -= forces[i];
   }
 
 
@@ -365,15 +354,15 @@ namespace talus
 
   /// Apply the laws once more to the strain of the whole load step, from the
   /// state at its start. Trials of the iterations leave no trace in the state,
-  /// so the result does not depend on the path to u. At small strain only
-  /// stress and internal variables change: the dynamics starts with the same
-  /// points, boxes and nodes.
+  /// so the result does not depend on the path to u. Only stress and internal
+  /// variables change: the dynamics starts with the same points, boxes and
+  /// nodes.
   template <int dim>
   void
   StaticEquations<dim>::commit(StaticProblem<dim>        &problem,
                                const std::vector<double> &u)
   {
-    contact_.commit(problem, u, measure_);
+    contact_.commit(problem, u);
     Points<dim> &points = problem.state.points;
     // Set the gradients of u, as the last evaluation may be at different
     // displacements.
@@ -384,19 +373,8 @@ namespace talus
       [&](const MaterialModel<dim> &model,
           const unsigned int        begin,
           const unsigned int        end) {
-        model.commit_load_step(
-          points, problem.state.workspace, begin, end, measure_);
+        model.commit_load_step(points, problem.state.workspace, begin, end);
       });
-    if (measure_ == StrainMeasure::small)
-      return;
-    const std::vector<double> moved = at_points(points, u);
-    for (unsigned int p = 0; p < points.size(); ++p)
-      for (unsigned int d = 0; d < dim; ++d)
-        points.data(points.position, d)[p] += moved[dim * p + d];
-    update_box_lengths(points,
-                       0,
-                       points.size(),
-                       problem.transfer.box_shape().rule);
   }
 
 

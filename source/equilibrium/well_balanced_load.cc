@@ -89,7 +89,7 @@ namespace talus
       return;
     find_pressure(problem);
     forces_ = unknowns.field();
-    InternalForces<dim> internal(StrainMeasure::small);
+    InternalForces<dim> internal;
     internal.add_forces_of_pressure(problem, weights, pressure_, forces_);
     for (double &force : forces_)
       force = -force;

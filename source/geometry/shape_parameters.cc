@@ -6,7 +6,6 @@
 #include <talus/geometry/intersection.h>
 #include <talus/geometry/polygon.h>
 #include <talus/geometry/shape_parameters.h>
-#include <talus/geometry/vertical_prism.h>
 
 #include <deal.II/base/utilities.h>
 

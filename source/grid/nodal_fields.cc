@@ -22,11 +22,12 @@ namespace talus
     motions_.assign(Motion::width * std::size_t(n_nodes_), 0.);
     exchange_of_sums_.prepare(grid, Sum::width);
     exchange_of_motions_.prepare(grid, Motion::width);
-    exchange_of_volumes_.prepare(grid, 1);
+    exchange_of_volumes_.prepare(grid, 1, Sum::width);
     is_active_.assign(n_nodes_, 0);
     active_nodes_.clear();
     active_ghosts_.clear();
     active_boundary_nodes_.clear();
+    n_active_of_cells_ = n_active_boundary_of_cells_ = 0;
   }
 
 
@@ -102,9 +103,10 @@ namespace talus
                              const std::vector<unsigned int> &cells)
   {
     std::swap(active_nodes_, formerly_active_nodes_);
+    formerly_active_nodes_.insert(formerly_active_nodes_.end(),
+                                  active_ghosts_.begin(),
+                                  active_ghosts_.end());
     for (const unsigned int node : formerly_active_nodes_)
-      is_active_[node] = 0;
-    for (const unsigned int node : active_ghosts_)
       is_active_[node] = 0;
     active_nodes_.clear();
     active_ghosts_.clear();
@@ -131,13 +133,13 @@ namespace talus
       else
         for (const unsigned int t : grid.touching_cells(c))
           add_patch(t);
-    // Points on another rank may touch shared nodes.
-    for (const unsigned int node : grid.interface_nodes())
-      add_active(grid, node);
     for (const auto &hanging : grid.hanging_nodes())
       if (is_active_[hanging.node])
         for (const auto &master : hanging.masters)
           add_active(grid, master.first);
+    n_active_of_cells_          = active_nodes_.size();
+    n_active_boundary_of_cells_ = active_boundary_nodes_.size();
+    activate_received(grid);
 
     // Nodes without soil must be zero when they become active again.
     for (const unsigned int node : formerly_active_nodes_)
@@ -150,7 +152,35 @@ namespace talus
 
 
 
-  // All ghosts, active or not: their records are sent in any case.
+  // The points of other ranks touch other nodes in each step. In ascending
+  // order the nodes with soil have the same order in a resumed run.
+  /// Activate the nodes that got sums from other ranks.
+  template <int dim>
+  void
+  NodalFields<dim>::activate_received(const Grid<dim> &grid)
+  {
+    for (const unsigned int node : exchange_of_sums_.received_nodes())
+      add_active(grid, node);
+  }
+
+
+
+  template <int dim>
+  void
+  NodalFields<dim>::deactivate_received()
+  {
+    for (std::size_t i = n_active_of_cells_; i < active_nodes_.size(); ++i)
+      {
+        is_active_[active_nodes_[i]] = 0;
+        std::fill_n(motion(active_nodes_[i]), Motion::width, 0.);
+      }
+    active_nodes_.resize(n_active_of_cells_);
+    active_boundary_nodes_.resize(n_active_boundary_of_cells_);
+  }
+
+
+
+  // All ghosts, active or not: other ranks share volumes at any node.
   template <int dim>
   void
   NodalFields<dim>::clear()
@@ -159,6 +189,7 @@ namespace talus
       std::fill_n(sum(node), Sum::width, 0.);
     for (unsigned int node = n_owned_nodes_; node < n_nodes_; ++node)
       std::fill_n(sum(node), Sum::width, 0.);
+    deactivate_received();
   }
 
 
@@ -181,22 +212,16 @@ namespace talus
           std::fill_n(value, Sum::width, 0.);
         }
     exchange_of_sums_.add_to_owners(sums_.data());
+    activate_received(grid);
   }
 
 
 
   template <int dim>
   void
-  NodalFields<dim>::share_volumes(const Grid<dim> &grid)
+  NodalFields<dim>::share_volumes()
   {
-    if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
-      return;
-    std::vector<double> volumes(n_nodes_, 0.);
-    for (const unsigned int node : active_nodes_)
-      volumes[node] = volume(node);
-    exchange_of_volumes_.copy_to_ghosts(volumes.data());
-    for (unsigned int node = n_owned_nodes_; node < n_nodes_; ++node)
-      sum(node)[Sum::volume] = volumes[node];
+    exchange_of_volumes_.copy_to_ghosts(sums_.data() + Sum::volume);
   }
 
 
@@ -244,6 +269,8 @@ namespace talus
   NodalFields<dim>::share_with_ghosts(const Grid<dim> &grid)
   {
     exchange_of_motions_.copy_to_ghosts(motions_.data());
+    grid.sent().n_ghosts_with_soil =
+      exchange_of_motions_.received_nodes().size();
     for (const auto &hanging : grid.hanging_nodes())
       if (is_active_[hanging.node])
         {

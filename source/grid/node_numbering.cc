@@ -5,6 +5,7 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/mpi.templates.h>
+#include <deal.II/base/partitioner.h>
 
 #include <deal.II/dofs/dof_tools.h>
 
@@ -129,7 +130,7 @@ namespace talus
   {
     number_nodes(mesh);
     find_ghost_nodes(mesh);
-    find_interface_nodes(mesh.communicator());
+    find_shared_nodes(mesh.communicator());
   }
 
 
@@ -269,20 +270,34 @@ namespace talus
 
   template <int dim>
   void
-  NodeNumbering<dim>::find_interface_nodes(const MPI_Comm communicator)
+  NodeNumbering<dim>::find_shared_nodes(const MPI_Comm communicator)
   {
-    // The partitioner has asked the other ranks for their imports.
-    const Utilities::MPI::Partitioner partitioner(owned_nodes_,
+    // The partitioner has asked the other ranks for their ghosts. Ghosts are
+    // sorted by owner.
+    const Utilities::MPI::Partitioner     partitioner(owned_nodes_,
                                                   ghost_nodes_,
                                                   communicator);
-    interface_nodes_.clear();
+    std::map<unsigned int, NodesWithRank> by_rank;
+    unsigned int                          ghost = n_owned_nodes();
+    for (const auto &[rank, n] : partitioner.ghost_targets())
+      for (unsigned int i = 0; i < n; ++i)
+        by_rank[rank].ghosts.push_back(ghost++);
+    std::vector<unsigned int> owned;
     for (const auto &[begin, end] : partitioner.import_indices())
       for (unsigned int node = begin; node < end; ++node)
-        interface_nodes_.push_back(node);
-    std::sort(interface_nodes_.begin(), interface_nodes_.end());
-    interface_nodes_.erase(std::unique(interface_nodes_.begin(),
-                                       interface_nodes_.end()),
-                           interface_nodes_.end());
+        owned.push_back(node);
+    auto at = owned.begin();
+    for (const auto &[rank, n] : partitioner.import_targets())
+      {
+        by_rank[rank].owned.assign(at, at + n);
+        at += n;
+      }
+    shared_nodes_.clear();
+    for (auto &[rank, nodes] : by_rank)
+      {
+        nodes.rank = rank;
+        shared_nodes_.push_back(std::move(nodes));
+      }
   }
 
 

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <sstream>
 
@@ -280,7 +281,12 @@ namespace talus
     if (std::isnan(value))
       return "";
     char number[32];
-    std::snprintf(number, sizeof(number), "%.16g", value);
+    for (const char *const digits : {"%.16g", "%.17g"})
+      {
+        std::snprintf(number, sizeof(number), digits, value);
+        if (std::strtod(number, nullptr) == value)
+          break;
+      }
     return number;
   }
 

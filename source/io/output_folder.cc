@@ -181,7 +181,8 @@ namespace talus
     {
       static const std::regex names(
         "(statistics|profile|obstacles|boundaries|newton|maps|stations|lines|"
-        "runout|tsunami-source)\\.csv|tsunami-source\\.(tt3|nc)|log\\.txt|"
+        "runout|plan|plan-cells|tsunami-source)\\.csv|plan-cells\\.prj|tsunami-"
+        "source\\.(tt3|nc)|log\\.txt|"
         "parameters\\.prm|maps\\.vtu|"
         "maps/(ground|erosion|thickness-at-start|final-(thickness|mass)|"
         "(time-of-)?maximum-(thickness|speed|momentum-flux|bed-shear)|"

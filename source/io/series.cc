@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
+#include <talus/io/files.h>
 #include <talus/io/series.h>
+#include <talus/io/vtu_writer.h>
 
 #include <deal.II/base/utilities.h>
 
-#include <algorithm>
 #include <iomanip>
 #include <sstream>
 
@@ -13,56 +14,49 @@ namespace talus
 {
   using namespace dealii;
 
+  namespace
+  {
+    std::filesystem::path
+    path_of_index(const std::filesystem::path &folder, const std::string &name)
+    {
+      return folder / (name + ".pvd");
+    }
+  } // namespace
+
+
+
   void
   FieldSeries::begin(const std::filesystem::path &folder,
                      const std::string           &name,
                      const MPI_Comm               communicator,
-                     const std::string           &format,
                      const Beginning              beginning)
   {
     folder_       = folder;
     name_         = name;
     communicator_ = communicator;
-    writer_       = make_field_writer(format);
-    unsynced_.clear();
     if (beginning == Beginning::fresh)
       entries_.clear();
+    n_synced_ = entries_.size();
   }
 
 
 
   /// As text, since a list of names and times has no fixed length. 17 digits
-  /// restore each double exactly. Lines of a description begin with a blank,
-  /// lines of an entry do not.
+  /// restore each double exactly.
   void
   FieldSeries::list_state(const std::string &name, StateList &list)
   {
     const auto get = [this]() {
-      std::ostringstream out;
-      out << std::setprecision(17);
-      for (const IndexEntry &entry : entries_)
-        out << entry.time << ' ' << entry.file << '\n' << entry.description;
-      return out.str();
+      std::string lines;
+      for (const Entry &entry : entries_)
+        lines += text(std::setprecision(17), entry.time, ' ', entry.file, '\n');
+      return lines;
     };
-    const auto set = [this, name](const std::string &text) {
+    const auto set = [this](const std::string &lines) {
       entries_.clear();
-      std::istringstream in(text);
-      for (std::string line; std::getline(in, line);)
-        if (line[0] == ' ' && !entries_.empty())
-          entries_.back().description += line + '\n';
-        else
-          {
-            IndexEntry         entry;
-            std::istringstream words(line);
-            words >> entry.time >> entry.file;
-            AssertThrow(
-              line[0] != ' ' && words,
-              ExcUser(
-                "The list '" + name + "' of the checkpoint has '" + line +
-                "' where the time and the name of a file were expected. "
-                "Remove this checkpoint, to use the previous checkpoint."));
-            entries_.push_back(entry);
-          }
+      std::istringstream words(lines);
+      for (Entry entry; words >> entry.time >> entry.file;)
+        entries_.push_back(entry);
     };
     list.add_text({name, get, set});
   }
@@ -76,54 +70,65 @@ namespace talus
   void
   FieldSeries::write(const OutputCells &cells)
   {
-    const std::string base =
-      name_ + "-" + Utilities::int_to_string(entries_.size(), 4);
-    entries_.push_back(
-      writer_->write(folder_, base, communicator_, cells, unsynced_));
-    if (!is_first_rank(communicator_))
-      return;
-    unsynced_.push_back(writer_->write_index(folder_, name_, entries_));
+    const std::string file =
+      name_ + "-" + Utilities::int_to_string(entries_.size(), 4) + ".vtu";
+    write_vtu(folder_ / file, communicator_, cells);
+    entries_.push_back({cells.time, file});
+    if (is_first_rank(communicator_))
+      write_index();
+  }
+
+
+
+  // deal.II's function for the index writes the date into the file and keeps
+  // only 12 digits of the times.
+  void
+  FieldSeries::write_index() const
+  {
+    write_file(path_of_index(folder_, name_), [&](std::ostream &out) {
+      out << "<?xml version=\"1.0\"?>\n"
+             "<VTKFile type=\"Collection\" version=\"0.1\">\n"
+             "  <Collection>\n";
+      for (const Entry &entry : entries_)
+        out << "    <DataSet timestep=\"" << csv_field(entry.time)
+            << "\" group=\"\" part=\"0\" file=\"" << entry.file << "\"/>\n";
+      out << "  </Collection>\n</VTKFile>\n";
+    });
   }
 
 
 
   std::vector<std::string>
   FieldSeries::missing_files(const std::filesystem::path &folder,
-                             const std::string           &name,
-                             const std::string           &format) const
+                             const std::string           &name) const
   {
-    if (entries_.empty())
-      return {};
-    const auto               writer = make_field_writer(format);
-    std::vector<std::string> missing;
-    if (!std::filesystem::exists(folder / writer->index_name(name)))
-      missing.push_back(writer->index_name(name));
-    for (const IndexEntry &entry : entries_)
-      for (const std::string &file : writer->files_of(folder, entry))
-        if (!std::filesystem::exists(folder / file) ||
-            !writer->is_complete(folder / file))
-          missing.push_back(file);
+    std::vector<std::string>    missing;
+    const std::filesystem::path index = path_of_index(folder, name);
+    if (!entries_.empty() && !std::filesystem::exists(index))
+      missing.push_back(index.filename());
+    for (const Entry &entry : entries_)
+      if (!is_complete_vtu(folder / entry.file))
+        missing.push_back(entry.file);
     return missing;
   }
 
 
 
   /// Once per checkpoint, not per file: waiting for the disk often takes longer
-  /// than writing.
+  /// than writing. A missing file was moved by the user.
   void
   FieldSeries::sync()
   {
-    // The index was written once for each time. A missing file was moved by the
-    // user.
-    std::sort(unsynced_.begin(), unsynced_.end());
-    unsynced_.erase(std::unique(unsynced_.begin(), unsynced_.end()),
-                    unsynced_.end());
-    for (const std::filesystem::path &path : unsynced_)
+    if (!is_first_rank(communicator_) || n_synced_ == entries_.size())
+      return;
+    std::vector<std::filesystem::path> paths = {path_of_index(folder_, name_)};
+    for (; n_synced_ < entries_.size(); ++n_synced_)
+      paths.push_back(folder_ / entries_[n_synced_].file);
+    for (const std::filesystem::path &path : paths)
       if (std::filesystem::exists(path))
         {
           const std::string error = sync_to_disk(path);
           AssertThrow(error.empty(), ExcUser(failed_write(path, error)));
         }
-    unsynced_.clear();
   }
 } // namespace talus

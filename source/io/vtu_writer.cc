@@ -1,17 +1,128 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/io/files.h>
-#include <talus/io/vtu_arrays.h>
 #include <talus/io/vtu_writer.h>
 
-#include <algorithm>
+#include <zlib.h>
+
+#include <array>
 #include <cstdint>
 #include <fstream>
 #include <iomanip>
+#include <limits>
+#include <sstream>
 
 namespace talus
 {
   using namespace dealii;
+
+  namespace
+  {
+    using Bytes = std::vector<unsigned char>;
+
+    /// Compress bytes with zlib at @p level; level 0 only wraps.
+    Bytes
+    pack(const unsigned char *bytes, const std::size_t n, const int level)
+    {
+      uLongf    size = compressBound(n);
+      Bytes     packed(size);
+      const int error = compress2(packed.data(), &size, bytes, n, level);
+      AssertThrow(error == Z_OK, ExcInternalError());
+      packed.resize(size);
+      return packed;
+    }
+
+
+
+    /// Return the level for zlib. Most computed numbers look like noise to
+    /// zlib: compression would take most of the time of an output and save a
+    /// tenth. Noise is only wrapped. A sample from the middle of the array
+    /// decides.
+    int
+    level_for(const unsigned char *bytes, const std::size_t n)
+    {
+      constexpr std::size_t n_sample = 4096;
+      if (n < 2 * n_sample)
+        return Z_BEST_SPEED;
+      const Bytes sample = pack(bytes + n / 2, n_sample, Z_BEST_SPEED);
+      return sample.size() <= n_sample / 2 ? Z_BEST_SPEED : Z_NO_COMPRESSION;
+    }
+  } // namespace
+
+
+
+  // Own conversion: deal.II's takes as long as the compression, and makes
+  // copies. Three bytes become four digits; the last group is filled up with
+  // '='. Digits go through a buffer, since a call of the stream per digit would
+  // take longer than the conversion.
+  void
+  write_base64(std::ostream        &out,
+               const unsigned char *bytes,
+               const std::size_t    n)
+  {
+    constexpr char          digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                       "abcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::array<char, 16384> buffer; // a multiple of 4
+    std::size_t             size = 0;
+    for (std::size_t i = 0; i < n; i += 3)
+      {
+        const unsigned int n_here = (n - i < 3 ? n - i : 3);
+        std::uint32_t      bits   = bytes[i] << 16;
+        if (n_here > 1)
+          bits |= bytes[i + 1] << 8;
+        if (n_here > 2)
+          bits |= bytes[i + 2];
+        for (unsigned int digit = 0; digit < 4; ++digit)
+          buffer[size++] =
+            (digit <= n_here ? digits[(bits >> (18 - 6 * digit)) & 63] : '=');
+        if (size == buffer.size())
+          {
+            out.write(buffer.data(), size);
+            size = 0;
+          }
+      }
+    out.write(buffer.data(), size);
+  }
+
+
+
+  /// VTK's format "binary" with a compressor: a header of four 32-bit numbers
+  /// (blocks, size of a block, size of the last block, compressed size), then
+  /// the data, header and data each in base64. A single block needs no list of
+  /// sizes.
+  template <typename Number>
+  void
+  write_vtu_array(std::ostream &out, const std::vector<Number> &values)
+  {
+    const std::size_t size = values.size() * sizeof(Number);
+    AssertThrow(size <= std::numeric_limits<std::uint32_t>::max(),
+                ExcUser("An array of a VTU file is larger than 4 GB. Use "
+                        "more ranks."));
+    const auto *bytes  = reinterpret_cast<const unsigned char *>(values.data());
+    const Bytes packed = pack(bytes, size, level_for(bytes, size));
+
+    const std::array<std::uint32_t, 4> header = {
+      {1,
+       static_cast<std::uint32_t>(size),
+       static_cast<std::uint32_t>(size),
+       static_cast<std::uint32_t>(packed.size())}};
+    write_base64(out,
+                 reinterpret_cast<const unsigned char *>(header.data()),
+                 sizeof(header));
+    write_base64(out, packed.data(), packed.size());
+  }
+
+
+
+  template decltype(write_vtu_array<double>) write_vtu_array<double>;
+  template decltype(write_vtu_array<float>)  write_vtu_array<float>;
+  template decltype(write_vtu_array<std::int32_t>)
+    write_vtu_array<std::int32_t>;
+  template decltype(write_vtu_array<std::uint8_t>)
+    write_vtu_array<std::uint8_t>;
+
+
 
   namespace
   {
@@ -80,7 +191,7 @@ namespace talus
       out << "</Points>\n<Cells>\n";
       write_array(out,
                   "type=\"Int32\" Name=\"connectivity\"",
-                  corners_of_cells<std::int32_t>(cells));
+                  corners_of_cells(cells));
       write_array(out, "type=\"Int32\" Name=\"offsets\"", offsets);
       write_array(out,
                   "type=\"UInt8\" Name=\"types\"",
@@ -99,169 +210,126 @@ namespace talus
 
 
 
-    /// Write the file that lists the files of all ranks.
+    /// VTK's readers know the names TIME and CYCLE.
     void
-    write_pvtu(std::ostream                   &out,
-               const OutputCells              &cells,
-               const std::vector<std::string> &pieces)
+    write_begin(std::ostream &out, const OutputCells &cells)
     {
-      // All ranks have the same fields as the first rank; no message is needed.
-      const std::string data = data_of(cells);
       out << "<?xml version=\"1.0\"?>\n"
-             "<VTKFile type=\"PUnstructuredGrid\" version=\"0.1\" "
-             "byte_order=\""
+             "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\""
           << byte_order
-          << "\">\n"
-             "<PUnstructuredGrid GhostLevel=\"0\">\n"
-             "<PPoints>\n"
-             "<PDataArray type=\""
-          << type_of_places(cells)
-          << "\" NumberOfComponents=\"3\"/>\n"
-             "</PPoints>\n"
-             "<P"
-          << data << ">\n";
+          << "\" compressor=\"vtkZLibDataCompressor\">\n"
+             "<UnstructuredGrid>\n"
+             "<FieldData>\n"
+             "<DataArray type=\"Float64\" Name=\"TIME\" NumberOfTuples=\"1\" "
+             "format=\"ascii\">"
+          << csv_field(cells.time)
+          << "</DataArray>\n"
+             "<DataArray type=\"Int64\" Name=\"CYCLE\" NumberOfTuples=\"1\" "
+             "format=\"ascii\">"
+          << cells.step << "</DataArray>\n</FieldData>\n";
+    }
+
+
+
+    /// Write the cells of this rank.
+    void
+    write_piece(std::ostream &out, const OutputCells &cells)
+    {
+      const std::string data = data_of(cells);
+      out << "<Piece NumberOfPoints=\"" << cells.n_vertices()
+          << "\" NumberOfCells=\"" << cells.size() << "\">\n";
+      write_geometry(out, cells);
+      out << '<' << data << ">\n";
       for (const Field &field : cells.fields)
-        out << "<PDataArray " << attributes_of(cells, field) << "/>\n";
-      out << "</P" << data << ">\n";
-      for (const std::string &piece : pieces)
-        out << "<Piece Source=\"" << piece << "\"/>\n";
-      out << "</PUnstructuredGrid>\n</VTKFile>\n";
+        with_values(cells, field, [&](const auto &values) {
+          write_array(out, attributes_of(cells, field), values);
+        });
+      out << "</" << data << ">\n</Piece>\n";
+    }
+
+
+
+    const std::string end = "</UnstructuredGrid>\n</VTKFile>\n";
+
+
+
+    /// Write the pieces that the higher ranks send, one after the other: the
+    /// memory of the first rank holds one of them.
+    void
+    write_pieces_of_others(std::ostream &out, const MPI_Comm communicator)
+    {
+      const int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+      for (int rank = 1; rank < n_ranks; ++rank)
+        {
+          MPI_Status status;
+          int        size;
+          MPI_Probe(rank, 0, communicator, &status);
+          MPI_Get_count(&status, MPI_CHAR, &size);
+          std::string piece(size, ' ');
+          MPI_Recv(piece.data(),
+                   size,
+                   MPI_CHAR,
+                   rank,
+                   0,
+                   communicator,
+                   MPI_STATUS_IGNORE);
+          out << piece;
+        }
     }
   } // namespace
 
 
 
-  /// VTK's readers know the names TIME and CYCLE.
   void
   write_vtu(std::ostream &out, const OutputCells &cells)
   {
-    const std::string data = data_of(cells);
-    out << "<?xml version=\"1.0\"?>\n"
-           "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\""
-        << byte_order
-        << "\" compressor=\"vtkZLibDataCompressor\">\n"
-           "<UnstructuredGrid>\n"
-           "<FieldData>\n"
-           "<DataArray type=\"Float64\" Name=\"TIME\" NumberOfTuples=\"1\" "
-           "format=\"ascii\">"
-        << std::setprecision(16) << cells.time
-        << "</DataArray>\n"
-           "<DataArray type=\"Int64\" Name=\"CYCLE\" NumberOfTuples=\"1\" "
-           "format=\"ascii\">"
-        << cells.step << "</DataArray>\n</FieldData>\n<Piece NumberOfPoints=\""
-        << cells.n_vertices() << "\" NumberOfCells=\"" << cells.size()
-        << "\">\n";
-    write_geometry(out, cells);
-    out << '<' << data << ">\n";
-    for (const Field &field : cells.fields)
-      with_values(cells, field, [&](const auto &values) {
-        write_array(out, attributes_of(cells, field), values);
+    write_begin(out, cells);
+    write_piece(out, cells);
+    out << end;
+  }
+
+
+
+  /// ParaView has no use for pieces without cells: only ranks with cells have a
+  /// piece, or the first rank if there are no cells. Nothing is written twice:
+  /// each rank has the cells of the points on the rank.
+  void
+  write_vtu(const std::filesystem::path &path,
+            const MPI_Comm               communicator,
+            const OutputCells           &cells)
+  {
+    const auto n_cells  = Utilities::MPI::sum(cells.size(), communicator);
+    const bool is_first = is_first_rank(communicator);
+    std::ostringstream own;
+    if (cells.size() > 0 || (n_cells == 0 && is_first))
+      write_piece(own, cells);
+    const std::string piece = own.str();
+    if (is_first)
+      write_file(path, [&](std::ostream &out) {
+        write_begin(out, cells);
+        out << piece;
+        write_pieces_of_others(out, communicator);
+        out << end;
       });
-    out << "</" << data << ">\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
-  }
-
-
-
-  /// A file per rank; the only message tells which ranks write. (HDF5 makes a
-  /// common file.) write_file() makes each file complete or not at all.
-  IndexEntry
-  VtuWriter::write(const std::filesystem::path        &folder,
-                   const std::string                  &base,
-                   const MPI_Comm                      communicator,
-                   const OutputCells                  &cells,
-                   std::vector<std::filesystem::path> &unsynced) const
-  {
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
-    const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
-    const auto         piece   = [&](const unsigned int r) {
-      return base + (n_ranks > 1 ? "." + std::to_string(r) : "") + ".vtu";
-    };
-    const auto write = [&](const std::string &name, const auto &content) {
-      write_file(folder / name, content);
-      unsynced.push_back(folder / name);
-    };
-
-    // ParaView has no use for files without cells: only ranks with cells write
-    // a file, or the first rank if there are no cells.
-    const auto n_cells = Utilities::MPI::all_gather(communicator, cells.size());
-    const bool nobody  = std::all_of(n_cells.begin(),
-                                    n_cells.end(),
-                                    [](const auto n) { return n == 0; });
-    const auto writes  = [&](const unsigned int r) {
-      return n_cells[r] > 0 || (nobody && r == 0);
-    };
-    // Nothing is written twice: each rank has the cells of the points on the
-    // rank.
-    if (writes(rank))
-      write(piece(rank), [&](std::ostream &out) { write_vtu(out, cells); });
-    if (n_ranks == 1)
-      return {cells.time, piece(0), ""};
-
-    std::vector<std::string> pieces;
-    for (unsigned int r = 0; r < n_ranks; ++r)
-      if (writes(r))
-        pieces.push_back(piece(r));
-    if (rank == 0)
-      write(base + ".pvtu",
-            [&](std::ostream &out) { write_pvtu(out, cells, pieces); });
-    return {cells.time, base + ".pvtu", ""};
-  }
-
-
-
-  /// Reads the names of the parts from the file of write_pvtu(): ranks without
-  /// cells have no part.
-  std::vector<std::string>
-  VtuWriter::files_of(const std::filesystem::path &folder,
-                      const IndexEntry            &entry) const
-  {
-    std::vector<std::string> files = {entry.file};
-    std::ifstream            pvtu;
-    if (std::filesystem::path(entry.file).extension() == ".pvtu")
-      pvtu.open(folder / entry.file);
-    const std::string begin = "<Piece Source=\"";
-    for (std::string line; std::getline(pvtu, line);)
-      if (line.rfind(begin, 0) == 0)
-        files.push_back(
-          line.substr(begin.size(),
-                      line.find('"', begin.size()) - begin.size()));
-    return files;
+    else
+      {
+        AssertThrow(piece.size() <= std::numeric_limits<int>::max(),
+                    ExcUser("The cells of a rank take more than 2 GB in a VTU "
+                            "file. Use more ranks."));
+        MPI_Send(piece.data(), piece.size(), MPI_CHAR, 0, 0, communicator);
+      }
   }
 
 
 
   /// Looks for the closing tag at the end.
   bool
-  VtuWriter::is_complete(const std::filesystem::path &path) const
+  is_complete_vtu(const std::filesystem::path &path)
   {
-    const std::string end = "</VTKFile>\n";
-    std::string       found(end.size(), ' ');
-    std::ifstream     file(path, std::ios::binary);
+    std::string   found(end.size(), ' ');
+    std::ifstream file(path, std::ios::binary);
     file.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
     file.read(found.data(), found.size());
     return file && found == end;
-  }
-
-
-
-  // deal.II's function for the index writes the date into the file and keeps
-  // only 12 digits of the times.
-  std::filesystem::path
-  VtuWriter::write_index(const std::filesystem::path   &folder,
-                         const std::string             &name,
-                         const std::vector<IndexEntry> &entries) const
-  {
-    const std::filesystem::path path = folder / index_name(name);
-    write_file(path, [&](std::ostream &out) {
-      out << "<?xml version=\"1.0\"?>\n"
-             "<VTKFile type=\"Collection\" version=\"0.1\">\n"
-             "  <Collection>\n"
-          << std::setprecision(16);
-      for (const IndexEntry &entry : entries)
-        out << "    <DataSet timestep=\"" << entry.time
-            << "\" group=\"\" part=\"0\" file=\"" << entry.file << "\"/>\n";
-      out << "  </Collection>\n</VTKFile>\n";
-    });
-    return path;
   }
 } // namespace talus

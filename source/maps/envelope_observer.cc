@@ -19,9 +19,9 @@ namespace talus
     /// from the cell below or above.
     template <int dim>
     void
-    add_bed_shear(const State<dim>        &state,
-                  const FacetContact<dim> &contact,
-                  ColumnSums<dim>         &sums)
+    add_bed_shear(const State<dim>   &state,
+                  const Contact<dim> &contact,
+                  ColumnSums<dim>    &sums)
     {
       const double dt = contact.previous_time_step();
       if (dt == 0)

@@ -2,9 +2,9 @@
 #include <talus/maps/lines.h>
 #include <talus/maps/map_observers.h>
 #include <talus/maps/maps.h>
+#include <talus/maps/plan_series.h>
 #include <talus/maps/runout.h>
 #include <talus/maps/stations.h>
-#include <talus/maps/tsunami_source.h>
 
 namespace talus
 {
@@ -19,8 +19,8 @@ namespace talus
     output.add_row_observer(std::make_unique<Stations<dim>>(problem, list));
     output.add_field_observer(
       std::make_unique<Lines<dim>>(problem, settings, list));
-    output.add_field_observer(
-      std::make_unique<TsunamiSource<dim>>(problem, settings));
+    output.add_plan_observer(
+      std::make_unique<PlanSeries<dim>>(problem, settings));
   }
 
 

@@ -20,28 +20,8 @@ namespace talus
   void
   Maps<dim>::check(const State<dim> &state) const
   {
-    const std::string &name = this->settings().raster();
-    AssertThrow(name.empty() ||
-                  this->problem().surfaces().raster(name) != nullptr,
-                ExcUser(text("'Maps/Raster' is '",
-                             name,
-                             "', which is no surface with a raster. Use a "
-                             "surface of 'Surfaces/Names' with a `File`.")));
-    const Box<dim> domain = state.grid.domain_before_growth();
-    this->settings().check(domain.length(1));
-    double n = 1;
-    for (const auto &axis : axes(state))
-      n *= axis.number;
-    AssertThrow(this->settings().cell_size() <= domain.length(0),
-                ExcUser(text("'Maps/Cell size' is ",
-                             this->settings().cell_size(),
-                             " m, more than the ",
-                             domain.length(0),
-                             " m of the mesh. Make it smaller.")));
-    AssertThrow(n <= 1e8,
-                ExcUser(text("The maps would have ",
-                             n,
-                             " cells. Make 'Maps/Cell size' larger.")));
+    this->settings().check(state.grid.domain_before_growth().length(1));
+    axes(state);
     if (dim == 3 && this->settings().writes_geotiff())
       check_geotiff(coordinate_system());
   }
@@ -63,10 +43,7 @@ namespace talus
   MapAxes<dim>
   Maps<dim>::axes(const State<dim> &state) const
   {
-    return map_axes(this->problem(),
-                    state,
-                    this->settings().raster(),
-                    this->settings().cell_size());
+    return map_axes(this->problem(), state, this->settings());
   }
 
 

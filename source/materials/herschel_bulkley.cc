@@ -63,14 +63,6 @@ namespace talus
 
 
 
-  // If the strength falls with the plastic shear faster than the elastic
-  // stress, ds_u/dxi < -G, a trial stress has several returns, or a stress
-  // jumps: the equation
-  //   tau_trial - G dgamma = s_u(xi + dgamma) + K (dgamma/dt)^n
-  // has a single root only if the right side minus the left side increases. The
-  // strength falls fastest at xi = 0, at the rate 3 (1 - r) s_u0/xi_95, which
-  // must be less than G. Viscosity would help only in short steps, and load
-  // steps of the static stages have no viscosity.
   template <int dim>
   void
   HerschelBulkley<dim>::check() const
@@ -93,21 +85,6 @@ namespace talus
                              "`Remoulded strength ratio` is 1, so that nothing "
                              "softens: give a ratio of less than 1, or remove "
                              "the displacement.")));
-    const double least =
-      3. * this->strength() * (1. - remoulded_ratio_) / this->moduli().mu;
-    AssertThrow(
-      remoulded_ratio_ == 1. || this->has_strength_column() ||
-        this->softens_by_displacement() || strain_to_remould_ > least,
-      ExcUser(text("Section ",
-                   this->section(),
-                   ": `Plastic shear strain to remould` is ",
-                   strain_to_remould_,
-                   ", but the material must not soften faster than it can "
-                   "unload elastically: give more than ",
-                   least,
-                   " (three times the strength loss by remoulding over the "
-                   "shear modulus), or set `Remoulded strength ratio` to 1 for "
-                   "material without remoulding.")));
     AssertThrow(!this->has_rate_effect() || consistency_ == 0.,
                 ExcUser(text("Section ",
                              this->section(),
@@ -118,7 +95,6 @@ namespace talus
                              ", but only one of them can describe how the "
                              "strength grows with the rate: set the other to "
                              "0.")));
-    this->check_rate_effect();
   }
 
 
@@ -132,26 +108,33 @@ namespace talus
   HerschelBulkleyFlow
   HerschelBulkley<dim>::flow_rule(const double dt) const
   {
-    const Strength strength = strength_at_rest(this->strength());
-    return {strength,
+    return {remoulded_ratio_,
             {this->moduli().mu,
              consistency_,
              exponent_,
-             remoulded_ratio_ < 1. ? 3. / strength.strain_to_remould : 0.,
+             softens() ? 3. / scale_of_softening() : 0.,
              dt}};
   }
 
 
 
-  // Strength as a function of the variable of softening, which is 1 at the
-  // softening displacement.
+  // Softening at which 95 % of the loss is reached: softening by displacement
+  // is 1 at the softening displacement.
   template <int dim>
-  Strength
-  HerschelBulkley<dim>::strength_at_rest(const double undisturbed) const
+  double
+  HerschelBulkley<dim>::scale_of_softening() const
   {
-    return {undisturbed,
-            remoulded_ratio_,
-            this->softens_by_displacement() ? 1. : strain_to_remould_};
+    return this->softens_by_displacement() ? 1. : strain_to_remould_;
+  }
+
+
+
+  template <int dim>
+  std::string
+  HerschelBulkley<dim>::slower_softening(const double times) const
+  {
+    return text("a `Plastic shear strain to remould` of more than ",
+                strain_to_remould_ * times);
   }
 
 
@@ -177,18 +160,6 @@ namespace talus
 
 
 
-  // Strength at rest, without viscosity.
-  template <int dim>
-  double
-  HerschelBulkley<dim>::shear_strength(const Points<dim> &points,
-                                       const unsigned int p) const
-  {
-    return strength_at_rest(this->strength(points, p))
-      .at(this->softening(points, p), this->strength_factor(points, p));
-  }
-
-
-
   template <int dim>
   bool
   HerschelBulkley<dim>::softens() const
@@ -203,27 +174,31 @@ namespace talus
   HerschelBulkley<dim>::fraction_of_strength_loss(const Points<dim> &points,
                                                   const unsigned int p) const
   {
-    const double scale =
-      this->softens_by_displacement() ? 1. : strain_to_remould_;
-    return softens() ? -std::expm1(-3. * this->softening(points, p) / scale)
+    return softens() ? -std::expm1(-3. * this->softening(points, p) /
+                                   scale_of_softening())
                      : 0.;
   }
 
 
 
-  // Condition of check() for the strength times the factor, with a margin of 1
-  // %: at equality the return has no slope.
+  // If the strength falls with the plastic shear faster than the elastic
+  // stress, ds_u/dxi < -G, a trial stress has several returns, or a stress
+  // jumps: the equation
+  //   tau_trial - G dgamma = s_u(xi + dgamma) + K (dgamma/dt)^n
+  // has a single root only if the right side minus the left side increases. The
+  // strength falls fastest at xi = 0, at the rate 3 (1 - r) s_u0/xi_95, which
+  // must be less than G. Viscosity would help only in short steps, and load
+  // steps of the static stages have no viscosity. The condition holds for the
+  // strength times the factor, with a margin of 1 %: at equality the return has
+  // no slope.
   template <int dim>
   double
   HerschelBulkley<dim>::largest_strength_factor(
     const StrengthRange &range) const
   {
     // Use the strongest soil, unless moduli are proportional to the strength.
-    const double largest =
-      this->has_strength_column() && !this->has_moduli_of_points()
-        ? range.largest
-        : this->strength();
-    const double lost = (1. - remoulded_ratio_) * largest;
+    const double lost = (1. - remoulded_ratio_) *
+                        (this->has_moduli_of_points() ? 1. : range.largest);
     if (lost == 0.)
       return std::numeric_limits<double>::infinity();
     return 0.99 * this->moduli().mu *
@@ -238,8 +213,9 @@ namespace talus
   Remark
   HerschelBulkley<dim>::note(const double cell_size) const
   {
-    const double lost = (1. - remoulded_ratio_) * this->strength();
-    if (lost == 0. || this->has_strength_column())
+    const double lost = (1. - remoulded_ratio_) *
+                        this->undrained_strength()->uniform().value_or(0.);
+    if (lost == 0.)
       return "";
     if (this->softens_by_displacement())
       return band_note({this->section(),

@@ -134,16 +134,13 @@ namespace talus
     for (const auto &model : models_)
       model->add_columns(points);
     for (const auto &model : models_)
-      if (model->has_strength_column())
-        undrained_strength_ = points.add_column("undrained shear strength",
-                                                "Pa",
-                                                1,
-                                                Inheritance::copied);
-    for (const auto &model : models_)
-      if (model->softens_by_displacement())
-        cell_size_ = points.find("cell size");
-    if (!with_strength_factor &&
-        undrained_strength_ == numbers::invalid_unsigned_int)
+      {
+        if (model->undrained_strength() != nullptr)
+          undrained_strength_ = points.find("undrained shear strength");
+        if (model->softens_by_displacement())
+          cell_size_ = points.find("cell size");
+      }
+    if (!with_strength_factor)
       return;
     strength_factor_ =
       points.add_column("strength factor", "-", 1, Inheritance::copied);
@@ -159,8 +156,8 @@ namespace talus
                                  const unsigned int body,
                                  const MPI_Comm     communicator) const
   {
-    if (!of_body(body).has_strength_column())
-      return {1., 1.};
+    if (of_body(body).undrained_strength() == nullptr)
+      return {0., 0.};
     StrengthRange range{std::numeric_limits<double>::infinity(), 0.};
     for (unsigned int p = 0; p < points.size(); ++p)
       if (points.data(points.body)[p] == body)
@@ -187,35 +184,6 @@ namespace talus
                         of_body(b).largest_strength_factor(
                           strength_range(points, b, communicator)));
     return result;
-  }
-
-
-
-  // The largest strength factor is inversely proportional to the cell size.
-  // Soil whose strength differs from point to point is checked when the points
-  // exist (problem/strength_field.cc).
-  template <int dim>
-  void
-  Materials<dim>::use_cell_size(const double largest)
-  {
-    for (const unsigned int m : material_of_body_)
-      {
-        MaterialModel<dim> &model = *models_[m];
-        model.use_cell_size(largest);
-        if (!model.softens_by_displacement() || model.has_strength_column())
-          continue;
-        const double factor = model.largest_strength_factor();
-        AssertThrow(
-          factor >= 1.,
-          ExcUser(text("Section ",
-                       model.section(),
-                       ": with `Softening displacement` on cells of ",
-                       largest,
-                       " m the material would soften faster than it can unload "
-                       "elastically. Give a `Grid/Cell size` of at most ",
-                       factor * largest,
-                       " m, a larger displacement, or more stiffness.")));
-      }
   }
 
 

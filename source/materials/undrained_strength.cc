@@ -6,18 +6,12 @@
 
 namespace talus
 {
-  // Laws call number() in each step, hence the cache.
-  const std::optional<double> &
+  std::optional<double>
   UndrainedStrength::number() const
   {
-    if (understood_ != words_)
-      {
-        number_.reset();
-        if (dealii::Patterns::Double().match(words_))
-          number_ = dealii::Utilities::string_to_double(words_);
-        understood_ = words_;
-      }
-    return number_;
+    if (!dealii::Patterns::Double().match(words_))
+      return {};
+    return dealii::Utilities::string_to_double(words_);
   }
 
 

@@ -39,29 +39,12 @@ namespace talus
 
 
 
-  // A trial stress q is returned by q - 3 mu dep = sigma_y(ep + dep). A root
-  // exists for all q only if the yield stress falls less steeply than the
-  // elastic stress, H > -3 mu. Otherwise the stress would have to jump.
   template <int dim>
   void
   VonMises<dim>::check() const
   {
     UndrainedLaw<dim, VonMisesFlow>::check();
     this->check_softening_is_given_once(hardening_ != 0., "Hardening modulus");
-    const double mu = this->moduli().mu;
-    AssertThrow(
-      this->has_strength_column() || 3. * mu + hardening_ > 0.,
-      ExcUser(text("Section ",
-                   this->section(),
-                   ": `Hardening modulus` is ",
-                   hardening_,
-                   " Pa, but the material must not soften faster than it can "
-                   "unload elastically: give more than ",
-                   -3. * mu,
-                   " Pa (minus three times the shear modulus).")));
-    if (!this->has_strength_column())
-      check_strength({this->strength(), this->strength()});
-    this->check_rate_effect();
   }
 
 
@@ -90,6 +73,18 @@ namespace talus
                              " Pa, but nothing says over what the material "
                              "softens: give `Softening displacement`, or a "
                              "negative `Hardening modulus`.")));
+    UndrainedLaw<dim, VonMisesFlow>::check_strength(range);
+  }
+
+
+
+  template <int dim>
+  std::string
+  VonMises<dim>::slower_softening(const double times) const
+  {
+    return text("a `Hardening modulus` of more than ",
+                hardening_ / times,
+                " Pa");
   }
 
 
@@ -113,37 +108,9 @@ namespace talus
   VonMises<dim>::flow_rule(const double /*dt*/) const
   {
     return {this->moduli().mu,
-            std::sqrt(3.) * this->strength(),
             hardening_,
-            std::sqrt(3.) * residual_strength_};
-  }
-
-
-
-  // Yield stress over sqrt(3). Hardening is a slope of the yield stress and
-  // divided by sqrt(3), too. Softening by displacement ends at 1.
-  template <int dim>
-  double
-  VonMises<dim>::strength_without_factor(const Points<dim> &points,
-                                         const unsigned int p) const
-  {
-    const double initial = this->strength(points, p);
-    const double slope   = this->softens_by_displacement()
-                             ? residual_strength_ - initial
-                             : hardening_ / std::sqrt(3.);
-    const double on_line = initial + slope * this->softening(points, p);
-    return std::max(on_line, residual_strength_);
-  }
-
-
-
-  template <int dim>
-  double
-  VonMises<dim>::shear_strength(const Points<dim> &points,
-                                const unsigned int p) const
-  {
-    return this->strength_factor(points, p) *
-           strength_without_factor(points, p);
+            std::sqrt(3.) * residual_strength_,
+            this->softens_by_displacement()};
   }
 
 
@@ -152,57 +119,57 @@ namespace talus
   bool
   VonMises<dim>::softens() const
   {
-    return (this->softens_by_displacement() || hardening_ < 0.) &&
-           (this->has_strength_column() ||
-            residual_strength_ < this->strength());
+    return this->softens_by_displacement() || hardening_ < 0.;
   }
 
 
 
   // Soil whose initial and residual strengths are equal has nothing to lose.
+  // Softening by displacement ends at 1. Hardening is a slope of the yield
+  // stress, sqrt(3) times the strength.
   template <int dim>
   double
   VonMises<dim>::fraction_of_strength_loss(const Points<dim> &points,
                                            const unsigned int p) const
   {
-    const double initial = this->strength(points, p);
-    return softens() && initial > residual_strength_
-             ? (initial - strength_without_factor(points, p)) /
-                 (initial - residual_strength_)
-             : 0.;
+    const double lost = this->strength(points, p) - residual_strength_;
+    if (!softens() || !(lost > 0.))
+      return 0.;
+    const double slope =
+      this->softens_by_displacement() ? 1. : -hardening_ / std::sqrt(3.) / lost;
+    return std::min(1., slope * this->softening(points, p));
   }
 
 
 
-  // Condition of check() for the hardening modulus times the factor, with a
-  // margin of 1 %: at equality the return has no slope. If residual and initial
-  // strength are equal, nothing softens. In simple shear the condition is
-  // ds_u/dgamma > -G, which is (s_u - s_res) h/d < G: the strongest soil
-  // decides, also if G is proportional to s_u. The rate of shearing multiplies
-  // the slope, too.
+  // A trial stress q is returned by q - 3 mu dep = sigma_y(ep + dep). A root
+  // exists for all q only if the yield stress falls less steeply than the
+  // elastic stress, H > -3 mu; otherwise the stress would have to jump. The
+  // condition holds for the hardening modulus times the factor, with a margin
+  // of 1 %: at equality the return has no slope. In simple shear the condition
+  // is ds_u/dgamma > -G, with a displacement (s_u - s_res) h/d < G: the
+  // strongest soil decides, also if G is proportional to s_u. The rate of
+  // shearing multiplies the slope, too.
   template <int dim>
   double
   VonMises<dim>::largest_strength_factor(const StrengthRange &range) const
   {
+    const double infinity = std::numeric_limits<double>::infinity();
+    const double mu = 0.99 * this->moduli().mu / this->steepening_by_rate();
     if (this->softens_by_displacement())
       {
-        const double strongest =
-          this->has_strength_column() ? range.largest : this->strength();
-        const double lost = strongest - residual_strength_;
-        const double mu =
-          this->moduli().mu * (this->has_moduli_of_points() ? strongest : 1.);
-        return lost > 0. ? 0.99 * mu * this->softening_displacement() /
-                             (lost * this->largest_cell_size()) /
-                             this->steepening_by_rate()
-                         : std::numeric_limits<double>::infinity();
+        const double lost = range.largest - residual_strength_;
+        return lost > 0.
+                 ? mu * (this->has_moduli_of_points() ? range.largest : 1.) *
+                     this->softening_displacement() /
+                     (lost * this->largest_cell_size())
+                 : infinity;
       }
-    if (hardening_ >= 0. || (!this->has_strength_column() &&
-                             residual_strength_ == this->strength()))
-      return std::numeric_limits<double>::infinity();
+    if (hardening_ >= 0.)
+      return infinity;
     // Use the softest soil if moduli differ.
-    const double stiffness = this->has_moduli_of_points() ? range.least : 1.;
-    return -0.99 * 3. * this->moduli().mu * stiffness / hardening_ /
-           this->steepening_by_rate();
+    return -3. * mu * (this->has_moduli_of_points() ? range.least : 1.) /
+           hardening_;
   }
 
 
@@ -212,14 +179,15 @@ namespace talus
   Remark
   VonMises<dim>::note(const double cell_size) const
   {
-    const double lost = this->strength() - residual_strength_;
-    if (this->softens_by_displacement() && !this->has_strength_column())
+    const auto   strength = this->undrained_strength()->uniform();
+    const double lost     = strength.value_or(0.) - residual_strength_;
+    if (!strength || !softens() || lost == 0.)
+      return "";
+    if (this->softens_by_displacement())
       return band_note({this->section(),
                         this->softening_displacement(),
                         lost * this->softening_displacement() / 2.,
                         "all"});
-    if (hardening_ >= 0. || lost == 0. || this->has_strength_column())
-      return "";
     const double strain = -3. * lost / hardening_;
     return shear_band_note(
       {this->section(), strain, lost * strain / 2., "all"},

@@ -95,9 +95,9 @@ namespace talus
     /// nodal velocities after the step, which belong to the middle of the step.
     template <int dim>
     Tensor<1, dim>
-    slip_velocity(const FacetContact<dim> &contact,
-                  const State<dim>        &state,
-                  const unsigned int       c)
+    slip_velocity(const Contact<dim> &contact,
+                  const State<dim>   &state,
+                  const unsigned int  c)
     {
       const ContactFacet<dim> &facet = contact.facets().owned()[c];
       Tensor<1, dim> u = -contact.obstacles()[facet.obstacle].velocity(
@@ -113,8 +113,7 @@ namespace talus
     /// Add slip and share left of the facets, where either matters.
     template <int dim>
     void
-    add_slip_fields(const FacetContact<dim> &contact,
-                    std::vector<Field>      &fields)
+    add_slip_fields(const Contact<dim> &contact, std::vector<Field> &fields)
     {
       const BedSlip<dim> &slip = contact.slip();
       if (!contact.obstacles().change_by_slip() && !slip.has_region())
@@ -139,7 +138,7 @@ namespace talus
     /// Fields of facets by facet number, evaluated when a file is written.
     template <int dim>
     std::vector<Field>
-    facet_fields(const FacetContact<dim> &contact, const State<dim> &state)
+    facet_fields(const Contact<dim> &contact, const State<dim> &state)
     {
       const auto       &facets      = contact.facets().owned();
       const auto       &impulses    = contact.impulses();

@@ -189,9 +189,9 @@ namespace talus
     /// the same exclusions as footprint(). Collective.
     template <int dim>
     double
-    contact_area(const State<dim>        &state,
-                 const FacetContact<dim> &contact,
-                 const Ground<dim>       &ground)
+    contact_area(const State<dim>   &state,
+                 const Contact<dim> &contact,
+                 const Ground<dim>  &ground)
     {
       const auto &facets   = contact.facets().owned();
       const auto &impulses = contact.impulses();
@@ -211,10 +211,10 @@ namespace talus
 
   template <int dim>
   void
-  list_contact_area(const State<dim>        &state,
-                    const Boundaries<dim>   &boundaries,
-                    const FacetContact<dim> &contact,
-                    Quantities              &row)
+  list_contact_area(const State<dim>      &state,
+                    const Boundaries<dim> &boundaries,
+                    const Contact<dim>    &contact,
+                    Quantities            &row)
   {
     const bool has_obstacles = !contact.obstacles().empty();
     double     in_contact = 0, under_soil = 0;

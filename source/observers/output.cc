@@ -10,6 +10,7 @@
 #include <talus/observers/phase_times.h>
 #include <talus/observers/points_output.h>
 #include <talus/observers/profile.h>
+#include <talus/observers/progress.h>
 
 namespace talus
 {
@@ -40,12 +41,6 @@ namespace talus
         settings.boxes_as_cells,
         "Write each point as a box, a quad or hex, instead of a dot: ParaView "
         "shows a continuum.");
-      section.add_parameter("Format",
-                            settings.format,
-                            "Files of points, grid and obstacles: " +
-                              field_format_documentation() + ".",
-                            section.prm,
-                            Patterns::Selection(field_format_names()));
     }
   } // namespace
 
@@ -77,6 +72,14 @@ namespace talus
                   "reaches a multiple of the interval.",
                   this->prm,
                   Patterns::Double(1e-12));
+    add_parameter(
+      "Plan interval",
+      settings_.plan_interval,
+      "Simulated time between two states in the series plan.csv, "
+      "the soil in each cell of the maps: talus-tsunami makes the "
+      "source of a tsunami model from the series [s]. 0: no series.",
+      this->prm,
+      Patterns::Double(0.));
     add_field_parameters(*this, settings_);
     add_parameter("Runout",
                   settings_.write_runout,
@@ -159,7 +162,7 @@ namespace talus
   void
   Output<dim>::check_observers(const State<dim> &state) const
   {
-    for (const Schedule *schedule : {&rows_, &fields_})
+    for (const Schedule *schedule : {&rows_, &fields_, &plan_})
       for (const auto &observer : schedule->observers)
         if (observer->is_enabled(settings_))
           {
@@ -215,7 +218,8 @@ namespace talus
 
     progress_.begin(state.time, end_time, communicator);
     settings_.folder = folder_;
-    for (Schedule *schedule : {&rows_, &fields_})
+    plan_.interval   = settings_.plan_interval;
+    for (Schedule *schedule : {&rows_, &fields_, &plan_})
       {
         // Start from the time of the state, loaded from the checkpoint in a
         // resumed run: output continues at the same multiples of the interval
@@ -236,10 +240,11 @@ namespace talus
   void
   Output<dim>::start(const State<dim> &state)
   {
+    state.grid.sent() = {}; // without static stages
     if (has_started_)
       return;
     has_started_ = true;
-    for (Schedule *schedule : {&rows_, &fields_})
+    for (Schedule *schedule : {&rows_, &fields_, &plan_})
       {
         for (const auto &observer : schedule->observers)
           if (observer->is_enabled(settings_))
@@ -268,12 +273,17 @@ namespace talus
       }
     if (fields_are_due)
       write(fields_, state);
+    if (plan_.is_due(state, last))
+      write(plan_, state);
     if (last)
       {
         // Wall times are written to the log only: files compared between runs
         // contain no wall times.
         for (const std::string &line :
              phase_times(timer_, state.communicator()))
+          log_.say(LogLevel::info, line);
+        for (const std::string &line : work_of_ranks(
+               timer_, progress_, state.grid.sent(), state.communicator()))
           log_.say(LogLevel::info, line);
         progress_.finish(state.time, state.points.size());
       }
@@ -288,7 +298,7 @@ namespace talus
   Output<dim>::follow(const State<dim> &state)
   {
     const PhaseTimer::Scope scope(timer_, "output");
-    for (const Schedule *schedule : {&rows_, &fields_})
+    for (const Schedule *schedule : {&rows_, &fields_, &plan_})
       for (const auto &observer : schedule->observers)
         if (observer->is_enabled(settings_))
           observer->follow(state);
@@ -334,7 +344,8 @@ namespace talus
              "-",
              fields_.last_step,
              Reduction::equal);
-    for (Schedule *schedule : {&rows_, &fields_})
+    list.add("step of the last plan", "-", plan_.last_step, Reduction::equal);
+    for (Schedule *schedule : {&rows_, &fields_, &plan_})
       for (const auto &observer : schedule->observers)
         observer->list_state(list);
   }
@@ -351,7 +362,7 @@ namespace talus
   {
     OutputSettings settings = settings_;
     settings.folder         = folder_;
-    for (const Schedule *schedule : {&rows_, &fields_})
+    for (const Schedule *schedule : {&rows_, &fields_, &plan_})
       for (const auto &observer : schedule->observers)
         if (observer->is_enabled(settings))
           {
@@ -376,7 +387,7 @@ namespace talus
     for (const char *name : {"parameters.prm", "log.txt", "lock"})
       if (!std::filesystem::exists(settings.folder / name))
         missing.push_back(name);
-    for (const Schedule *schedule : {&rows_, &fields_})
+    for (const Schedule *schedule : {&rows_, &fields_, &plan_})
       for (const auto &observer : schedule->observers)
         if (observer->is_enabled(settings))
           for (const std::string &name : observer->missing_files(settings))
@@ -419,7 +430,7 @@ namespace talus
   void
   Output<dim>::sync(const MPI_Comm communicator)
   {
-    for (const Schedule *schedule : {&rows_, &fields_})
+    for (const Schedule *schedule : {&rows_, &fields_, &plan_})
       for (const auto &observer : schedule->observers)
         if (observer->is_enabled(settings_))
           observer->sync();
@@ -453,8 +464,7 @@ namespace talus
 
 
   /// Not collective: an error may have stopped a single rank, and waiting for
-  /// the other ranks would never end. Each rank writes a separate VTU file,
-  /// because HDF5 needs a common file.
+  /// the other ranks would never end. Each rank writes a separate VTU file.
   template <int dim>
   std::string
   Output<dim>::write_last_state(const State<dim> &state) const

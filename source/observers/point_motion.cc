@@ -119,6 +119,7 @@ namespace talus
   template <int dim>
   double
   front_of_mass(const Points<dim> &points,
+                const unsigned int axis,
                 const double       fraction,
                 const MPI_Comm     communicator)
   {
@@ -131,7 +132,7 @@ namespace talus
     double                 mass = 0, mass_below = 0;
     for (unsigned int p = 0; p < points.size(); ++p)
       {
-        candidates[p] = {points.data(points.position, 0)[p],
+        candidates[p] = {points.data(points.position, axis)[p],
                          points.data(points.mass)[p]};
         mass += candidates[p].mass;
       }
@@ -166,8 +167,7 @@ namespace talus
           bins[bin(c)] += c.mass;
         Utilities::MPI::sum(bins, communicator, bins);
 
-        // By round-off the sum may miss the target: accept the last bin.
-        unsigned int b = 0;
+        unsigned int b = 0; // by round-off the last one, below the target
         for (; b + 1 < n_bins && mass_below + bins[b] < target; ++b)
           mass_below += bins[b];
         candidates.erase(std::remove_if(candidates.begin(),
@@ -199,7 +199,7 @@ namespace talus
         list.push_back(
           {"front of 99.5 % mass x",
            "m",
-           front_of_mass(state.points, 0.995, state.communicator())});
+           front_of_mass(state.points, 0, 0.995, state.communicator())});
         list.push_back({"rear x", "m", sums.rear});
       }
     list.push_back({"height",

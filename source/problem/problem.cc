@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/contact/obstacle_remarks.h>
-#include <talus/contact/obstacle_sizes.h>
 #include <talus/problem/bottom_of_mesh.h>
 #include <talus/problem/geostatic.h>
 #include <talus/problem/layer_ends.h>
@@ -30,8 +29,7 @@ namespace talus
     , obstacles(preview.obstacles)
     , loading(preview.folder)
     , boundaries(interactions.template add<Boundaries<dim>>())
-    , contact(
-        interactions.template add<FacetContact<dim>>(obstacles, boundaries))
+    , contact(interactions.template add<Contact<dim>>(obstacles, boundaries))
     , damping(interactions.template add<Damping<dim>>(boundaries,
                                                       contact.feels_obstacle()))
     , water(interactions.template add<Water<dim>>(materials, contact))
@@ -244,18 +242,6 @@ namespace talus
     for (unsigned int b = 0; b < bodies_.size(); ++b)
       result.push_back(materials.of_body(b).uses_bbar());
     return result;
-  }
-
-
-
-  template <int dim>
-  bool
-  Problem<dim>::has_hyperelastic_body() const
-  {
-    for (unsigned int b = 0; b < bodies_.size(); ++b)
-      if (materials.of_body(b).is_hyperelastic())
-        return true;
-    return false;
   }
 
 

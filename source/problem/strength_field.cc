@@ -1,16 +1,77 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/problem/mudline.h>
-#include <talus/problem/random_field.h>
 #include <talus/problem/strength_field.h>
 #include <talus/problem/time_table.h>
 
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/normal_distribution.hpp>
+#include <boost/random/uniform_01.hpp>
+
+#include <cmath>
 #include <map>
 #include <optional>
 
 namespace talus
 {
   using namespace dealii;
+
+  namespace
+  {
+    // The correlation of a single realization differs from the kernel by about
+    // 1/sqrt(n_waves).
+    constexpr unsigned int n_waves = 2000;
+  } // namespace
+
+
+
+  // The spectral density of the Matern correlation of smoothness nu is a
+  // multivariate t distribution with 2 nu degrees of freedom: a normal vector
+  // over the root of a mean of 2 nu squares of normal numbers
+  // (@cite rasmussen2006, eq. 4.15). Boost's distributions, other than those of
+  // the standard library, are the same with every compiler.
+  template <int dim>
+  RandomField<dim>::RandomField(const StrengthVariation &variation)
+    : deviation_(std::sqrt(
+        std::log1p(variation.coefficient() * variation.coefficient())))
+  {
+    boost::random::mt19937                     generator(variation.seed());
+    boost::random::normal_distribution<double> normal;
+    boost::random::uniform_01<double>          uniform;
+    const unsigned int                         n = variation.twice_smoothness();
+    for (unsigned int w = 0; w < n_waves; ++w)
+      {
+        Wave   wave;
+        double squares = 0.;
+        for (unsigned int i = 0; i < n; ++i)
+          squares += std::pow(normal(generator), 2);
+        for (unsigned int d = 0; d < dim; ++d)
+          wave.vector[d] = normal(generator) / std::sqrt(squares / n) /
+                           variation.correlation_length(d);
+        wave.phase = 2. * numbers::PI * uniform(generator);
+        waves_.push_back(wave);
+      }
+  }
+
+
+
+  template <int dim>
+  double
+  RandomField<dim>::operator()(const Point<dim> &x) const
+  {
+    double sum = 0.;
+    for (const Wave &wave : waves_)
+      sum += std::cos(wave.vector * x + wave.phase);
+    const double standard_normal = std::sqrt(2. / n_waves) * sum;
+    return std::exp(deviation_ * (standard_normal - 0.5 * deviation_));
+  }
+
+
+
+  template class RandomField<2>;
+  template class RandomField<3>;
+
+
 
   namespace
   {
@@ -35,103 +96,59 @@ namespace talus
       StrengthField(const std::string           &path,
                     const UndrainedStrength     &strength,
                     const Constants             &constants,
-                    const std::filesystem::path &folder);
+                    const std::filesystem::path &folder)
+        : path_(path)
+        , number_(strength.number())
+      {
+        if (const std::string table = strength.table(); !table.empty())
+          table_ = strength_table(folder / table);
+        else if (!number_)
+          expression_ =
+            std::make_unique<Expression<dim>>(path,
+                                              strength.words(),
+                                              1,
+                                              constants,
+                                              dim == 2 ? "x,y,depth"
+                                                       : "x,y,z,depth");
+        if (strength.variation().is_active())
+          variation_.emplace(strength.variation());
+      }
 
-      /// Return the strength at @p x, @p depth below the mudline, m; Pa.
+      /// Return the strength at @p x, Pa. Throws ExcUser if it is not positive,
+      /// unless the user gave the number 0.
       double
-      at(const Point<dim> &x, double depth);
+      at(const Point<dim> &x, const Mudline<dim> &mudline)
+      {
+        const double depth    = number_ ? 0. : mudline.depth(x);
+        double       strength = 0.;
+        if (number_)
+          strength = *number_;
+        else if (table_)
+          strength = table_->value(0, depth);
+        else
+          strength = expression_->finite_value(x, depth, 0);
+        if (variation_)
+          strength *= (*variation_)(x);
+        AssertThrow(strength > 0. || (number_ && strength == 0.),
+                    ExcUser(text(path_,
+                                 " is ",
+                                 strength,
+                                 " Pa at (",
+                                 x,
+                                 ") m, ",
+                                 mudline.depth(x),
+                                 " m below the mudline. Soil needs a positive "
+                                 "strength: change it.")));
+        return strength;
+      }
 
     private:
+      std::string                      path_;
       std::optional<double>            number_;
       std::optional<TimeTable>         table_;
       std::unique_ptr<Expression<dim>> expression_;
       std::optional<RandomField<dim>>  variation_;
     };
-
-
-
-    template <int dim>
-    StrengthField<dim>::StrengthField(const std::string           &path,
-                                      const UndrainedStrength     &strength,
-                                      const Constants             &constants,
-                                      const std::filesystem::path &folder)
-      : number_(strength.number())
-    {
-      if (const std::string table = strength.table(); !table.empty())
-        table_ = strength_table(folder / table);
-      else if (!number_)
-        expression_ =
-          std::make_unique<Expression<dim>>(path,
-                                            strength.words(),
-                                            1,
-                                            constants,
-                                            dim == 2 ? "x,y,depth"
-                                                     : "x,y,z,depth");
-      if (strength.variation().is_active())
-        variation_.emplace(strength.variation());
-    }
-
-
-
-    template <int dim>
-    double
-    StrengthField<dim>::at(const Point<dim> &x, const double depth)
-    {
-      const double mean = (number_  ? *number_
-                           : table_ ? table_->value(0, depth)
-                                    : expression_->finite_value(x, depth, 0));
-      return variation_ ? mean * (*variation_)(x) : mean;
-    }
-
-
-
-    template <int dim>
-    void
-    check_point(const std::string &path,
-                const double       strength,
-                const Point<dim>  &x,
-                const double       depth)
-    {
-      AssertThrow(strength > 0.,
-                  ExcUser(text(path,
-                               " is ",
-                               strength,
-                               " Pa at (",
-                               x,
-                               ") m, ",
-                               depth,
-                               " m below the mudline. Soil needs a positive "
-                               "strength: change it.")));
-    }
-
-
-
-    /// Check softening for a range of strengths, as a law of constant strength
-    /// does in check().
-    template <int dim>
-    void
-    check_softening(const std::string        &path,
-                    const MaterialModel<dim> &material,
-                    const StrengthRange      &range)
-    {
-      const double largest = material.largest_strength_factor(range);
-      AssertThrow(
-        largest >= 1.,
-        ExcUser(
-          text(path,
-               " is from ",
-               range.least,
-               " Pa to ",
-               range.largest,
-               " Pa, but somewhere the soil would soften faster than "
-               "elastic unloading permits: the softening would have to be ",
-               1. / largest,
-               " times slower. Let the soil soften over more strain",
-               material.softens_by_displacement()
-                 ? " (a larger displacement, or cells smaller by that factor)"
-                 : "",
-               ", or increase the stiffness.")));
-    }
   } // namespace
 
 
@@ -163,18 +180,10 @@ namespace talus
                                  inputs.folder);
         for (unsigned int p = 0; p < points.size(); ++p)
           if (points.data(points.body)[p] == b)
-            {
-              const auto   x = load_place(points, points.initial_position, p);
-              const double depth     = mudline.depth(x);
-              points.data(column)[p] = field.at(x, depth);
-              if (material.has_strength_column())
-                check_point(path, points.data(column)[p], x, depth);
-            }
-        const StrengthRange range =
-          materials.strength_range(points, b, communicator);
-        if (material.has_strength_column())
-          material.check_strength(range);
-        check_softening(path, material, range);
+            points.data(column)[p] =
+              field.at(load_place(points, points.initial_position, p), mudline);
+        material.check_strength(
+          materials.strength_range(points, b, communicator));
       }
   }
 

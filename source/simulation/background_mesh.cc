@@ -3,6 +3,7 @@
 #include <talus/base/errors.h>
 #include <talus/problem/filling.h>
 #include <talus/simulation/background_mesh.h>
+#include <talus/transfer/points_of_cells.h>
 #include <talus/transfer/send_to_owners.h>
 #include <talus/transfer/weights.h>
 
@@ -52,7 +53,7 @@ namespace talus
                              p,
                              weights);
           }
-      return state.constants.box_shape.max_half <= 0.5;
+      return true;
     }
   } // namespace
 
@@ -148,51 +149,31 @@ namespace talus
 
 
 
-  /// The mesh of the checkpoint is created on the current ranks, with the saved
-  /// partition if the number of ranks is the same. Points are loaded with the
-  /// saved cells: a point on an edge could be found in either cell, and the
-  /// order of sums would change. From prepare() on, all steps are as after any
-  /// change of the mesh. Collective.
+  /// Points are loaded with the saved cells: a point on an edge could be found
+  /// in either cell, and the order of sums would change. p4est distributes the
+  /// cells evenly, but sums over ranks are bit-identical only if every rank has
+  /// its previous cells and points: the saved weights of the cells repeat the
+  /// partition. Collective.
   template <int dim>
   void
-  BackgroundMesh<dim>::load(const std::string    &mesh,
-                            Hdf5InputFile        &file,
-                            const CheckpointHead &head)
+  BackgroundMesh<dim>::load(const std::string &path,
+                            const unsigned int n_ranks_then)
   {
-    Grid<dim>         &grid = state_.grid;
+    Grid<dim>         &grid   = state_.grid;
+    Points<dim>       &points = state_.points;
     const unsigned int n_ranks =
       Utilities::MPI::n_mpi_processes(state_.communicator());
     grid.create(problem_.faces_that_may_move(),
                 mesh_tracking_.is_enabled(),
                 problem_.boundaries.periodic_axes());
-    grid.load(mesh);
-    if (n_ranks == head.n_ranks && n_ranks > 1)
-      restore_partition(file);
-    prepare();
-    // Saved cells are used, because positions on cell edges are ambiguous.
-    relocation_.rebuild(state_.points,
-                        load_points(file, grid.n_owned_cells(), state_.points));
-    activate_nodes();
-  }
-
-
-
-  /// p4est distributes the cells evenly, but sums over ranks are bit-identical
-  /// only if every rank has its previous cells and points. The weights are
-  /// loaded twice: weights of the current cells determine the partition, and
-  /// weights of the resulting cells become the state of load_balance_.
-  template <int dim>
-  void
-  BackgroundMesh<dim>::restore_partition(Hdf5InputFile &file)
-  {
-    const auto weights = [&]() {
-      const auto result =
-        load_cell_weights(file, state_.grid.n_locally_owned_cells());
-      check_read(file);
-      return result;
-    };
-    state_.grid.repartition(weights());
-    load_balance_.set_weights(weights());
+    grid.load(path);
+    prepare_cells();
+    std::vector<double> weights;
+    relocation_.rebuild(points, load_points(grid, points, weights));
+    if (n_ranks == n_ranks_then && n_ranks > 1)
+      relocation_.rebuild(points,
+                          load_balance_.repartition(grid, points, weights));
+    prepare_nodes();
   }
 
 
@@ -359,24 +340,6 @@ namespace talus
           state_.workspace.points_out_of_cell(),
           state_.outflow.is_open() ? typename Relocation<dim>::Leaves(leaves)
                                    : nullptr))
-      state_.nodes.activate(state_.grid, relocation_.occupied_cells());
-  }
-
-
-
-  /// In a load step with large strain points may move beyond neighbouring
-  /// cells. Each point is therefore searched for, and may go to any rank.
-  /// Collective.
-  template <int dim>
-  void
-  BackgroundMesh<dim>::relocate_all()
-  {
-    if (Utilities::MPI::n_mpi_processes(state_.communicator()) > 1)
-      {
-        state_.points.forget_order();
-        send_points_to_owners(state_.points, state_.grid);
-      }
-    if (relocation_.update(state_.points, state_.grid))
       state_.nodes.activate(state_.grid, relocation_.occupied_cells());
   }
 

@@ -250,7 +250,7 @@ namespace talus
     in_phase("messages", [&]() {
       state_.nodes.sum_over_ranks(state_.grid);
       if (splitter_.is_enabled())
-        state_.nodes.share_volumes(state_.grid);
+        state_.nodes.share_volumes();
     });
     TalusAssert(nodes_carry_all_mass(state_),
                 ExcMessage(

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
 #include <talus/simulation/newton_table.h>
+
+#include <iomanip>
 
 namespace talus
 {
@@ -58,13 +61,21 @@ namespace talus
   /// Each row is flushed, so a failing search can be followed while running.
   /// Integers are stored as doubles, as in all tables.
   void
-  NewtonTable::add(const unsigned int         stage,
-                   const double               factor,
-                   const EquilibriumProgress &progress)
+  NewtonTable::add(const SearchLabel         &label,
+                   const EquilibriumProgress &progress,
+                   const bool                 is_first_rank)
   {
     const NewtonIteration &iteration = progress.iteration;
-    file_.add_row({1. * stage,
-                   factor,
+    if (iteration.number == 0)
+      residuals_.clear(); // after a cut, or a change at the seabed
+    last_ = progress;
+    residuals_.push_back(iteration.residual);
+    n_linear_iterations_ += iteration.n_linear_iterations;
+    seconds_ += iteration.seconds;
+    if (!is_first_rank)
+      return;
+    file_.add_row({1. * label.stage,
+                   label.strength_factor,
                    1. * progress.load_step,
                    progress.load,
                    1. * iteration.number,
@@ -72,5 +83,35 @@ namespace talus
                    iteration.length,
                    1. * iteration.n_linear_iterations});
     file_.flush();
+  }
+
+
+
+  /// The residuals show whether convergence was quadratic.
+  void
+  NewtonTable::end_step(const SearchLabel &label)
+  {
+    std::string residuals;
+    for (const double residual : residuals_)
+      residuals +=
+        text(residuals.empty() ? "" : ", ", std::setprecision(2), residual);
+    if (!label.is_trial && !residuals.empty())
+      log_.say(LogLevel::result,
+               text(std::setprecision(6),
+                    "  step ",
+                    last_.load_step,
+                    ", load ",
+                    last_.load,
+                    ": residuals ",
+                    residuals,
+                    n_linear_iterations_ > 0
+                      ? text("; ", n_linear_iterations_, " linear iterations")
+                      : std::string(),
+                    ", ",
+                    seconds_,
+                    " s"));
+    residuals_.clear();
+    n_linear_iterations_ = 0;
+    seconds_             = 0;
   }
 } // namespace talus

@@ -8,14 +8,13 @@
 #include <talus/maps/map_observers.h>
 #include <talus/observers/boundary_forces.h>
 #include <talus/observers/facets_output.h>
+#include <talus/observers/footprint.h>
 #include <talus/observers/obstacle_forces.h>
 #include <talus/observers/obstacles_output.h>
-#include <talus/simulation/contact_area_remark.h>
-#include <talus/simulation/hydroplaning_remark.h>
 #include <talus/simulation/pace.h>
+#include <talus/simulation/run_remarks.h>
 #include <talus/simulation/shear_bands.h>
 #include <talus/simulation/simulation.h>
-#include <talus/simulation/split_limit_remark.h>
 #include <talus/version.h>
 
 #include <deal.II/base/mpi.h>
@@ -39,7 +38,7 @@ namespace talus
     , mesh_(state_, problem_, transfer_, timer_)
     , scheme_(state_, problem_, transfer_, mesh_, timer_)
     , output_(timer_, log_, &problem_.obstacles)
-    , static_stages_(state_, problem_, transfer_, mesh_, output_, log_)
+    , static_stages_(state_, problem_, transfer_, output_, log_)
   {
     add_parameter("Title", title_, "One line about the case.");
     add_parameter("Dimension",
@@ -56,35 +55,49 @@ namespace talus
                   ends_at_rest_,
                   "Whether the run ends before the end time when the slide is "
                   "at rest; the section Rest defines rest.");
+    add_observers();
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::add_observers()
+  {
     output_.add_row_observer(
       std::make_unique<ObstacleForces<dim>>(problem_.contact));
     output_.add_row_observer(
       std::make_unique<BoundaryForces<dim>>(problem_.boundaries.reactions()));
     output_.add_row_observer(std::make_unique<ShearBands<dim>>(problem_));
-    output_.add_row_observer(
-      std::make_unique<SplitLimitRemark<dim>>(scheme_.splitter(), log_));
-    output_.add_row_observer(
-      std::make_unique<HydroplaningRemark<dim>>(problem_.hydroplaning, log_));
-    auto contact_area =
-      std::make_unique<ContactAreaRemark<dim>>(problem_.boundaries,
-                                               problem_.contact,
-                                               log_);
     output_.add_field_observer(
       std::make_unique<ObstaclesOutput<dim>>(problem_.obstacles));
     output_.add_field_observer(
       std::make_unique<FacetsOutput<dim>>(problem_.contact));
     add_map_observers(problem_, output_);
+    // The remark on the contact area uses the numbers of the same row.
+    const auto areas = std::make_shared<Quantities>();
     output_.add_quantities(
-      [this, areas = contact_area.get()](const State<dim> &state,
-                                         Quantities       &list) {
-        areas->list_quantities(state, list);
+      [this, areas](const State<dim> &state, Quantities &list) {
+        areas->clear();
+        list_contact_area(state, problem_.boundaries, problem_.contact, *areas);
+        list.insert(list.end(), areas->begin(), areas->end());
         scheme_.splitter().list_quantities(state, list);
         scheme_.merger().list_quantities(state, list);
         rest_.list_quantities(list);
         state.outflow.list_quantities(state.communicator(), list);
         problem_.interactions.list_quantities(state, list);
       });
-    output_.add_row_observer(std::move(contact_area)); // after the statistics
+    auto remarks = std::make_unique<RunRemarks<dim>>(log_);
+    remarks->add("split limit remark", [this](const State<dim> &state) {
+      return remark_on_split_limits(state, scheme_.splitter());
+    });
+    remarks->add("hydroplaning remark", [this](const State<dim> &state) {
+      return problem_.hydroplaning.report(state);
+    });
+    remarks->add("contact area remark", [areas](const State<dim> &state) {
+      return remark_on_contact_area(state.time, *areas);
+    });
+    output_.add_row_observer(std::move(remarks)); // after the statistics
   }
 
 
@@ -119,7 +132,6 @@ namespace talus
     parameters_ = parameters_as_text(this->prm);
     static_stages_.check_list();
     state_.grid.check();
-    transfer_.check();
     output_.check(problem_.damping.coefficient());
     check_can_be_made(output_.folder());
     check_can_be_made(output_.folder() + "/checkpoints");
@@ -185,18 +197,15 @@ namespace talus
   {
     prepare();
     const MPI_Comm communicator = state_.communicator();
-    resumed_from_ = find_checkpoint(output_.folder(), dim, communicator);
-    Hdf5InputFile     file(resumed_from_.path / state_file_name, communicator);
-    const std::string parameters = file.read_text("parameters");
-    check_read(file);
-    check_parameter_changes(parameters, parameters_);
+    resumed_from_        = find_checkpoint(output_.folder(), dim, communicator);
+    const Hdf5Image file = open_state(resumed_from_.path, communicator);
+    check_parameter_changes(file.read_text("parameters"), parameters_);
+    check_columns(file, state_.points);
 
-    mesh_.load((resumed_from_.path / mesh_file_name).string(),
-               file,
-               resumed_from_.head);
-    load_state(file, list_state());
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     const unsigned int n_ranks_then = resumed_from_.head.n_ranks;
+    mesh_.load((resumed_from_.path / mesh_file_name).string(), n_ranks_then);
+    load_state(file, list_state(), communicator);
     scheme_.splitter().renumber_after_resume(
       Utilities::MPI::this_mpi_process(communicator), n_ranks, n_ranks_then);
     if (n_ranks != n_ranks_then)
@@ -642,14 +651,14 @@ namespace talus
     output_.sync(state_.communicator());
     const std::vector<double> cell_weights = mesh_.cell_weights();
     const StateList           list         = list_state();
-    return checkpoint_.write({state_.points,
+    return checkpoint_.write({state_.grid,
+                              state_.points,
                               cell_weights,
                               list,
                               parameters_,
                               state_.step,
                               state_.time,
-                              end_of_run()},
-                             state_.grid);
+                              end_of_run()});
   }
 
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
+#include <talus/base/interrupt.h>
+#include <talus/simulation/shear_bands.h>
 #include <talus/simulation/static_stages.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 
@@ -13,25 +17,26 @@ namespace talus
   StaticStages<dim>::StaticStages(State<dim>          &state,
                                   Problem<dim>        &problem,
                                   const Transfer<dim> &transfer,
-                                  BackgroundMesh<dim> &mesh,
                                   const Output<dim>   &output,
                                   Log                 &log)
     : state_(state)
     , problem_(problem)
+    , transfer_(transfer)
     , output_(output)
     , log_(log)
-    , solver_(state, problem, transfer, mesh, log)
+    , table_(log)
   {}
 
 
 
+  /// Only the first rank writes the table.
   template <int dim>
   void
   StaticStages<dim>::begin(const std::filesystem::path &folder,
                            const Beginning              beginning)
   {
-    if (stages_.has_static())
-      solver_.begin(folder, beginning);
+    if (stages_.has_static() && is_first_rank(state_.communicator()))
+      table_.begin(folder, beginning);
   }
 
 
@@ -43,8 +48,23 @@ namespace talus
     if (!stages_.has_static())
       return;
     const std::string sentence =
-      first_sentence(solver_.cannot_resume(folder), state_.communicator());
+      first_sentence(is_first_rank(state_.communicator())
+                       ? table_.cannot_resume(folder)
+                       : std::string(),
+                     state_.communicator());
     AssertThrow(sentence.empty(), ExcUser(sentence));
+  }
+
+
+
+  /// Points and mesh may differ from the previous stage.
+  template <int dim>
+  void
+  StaticStages<dim>::begin_stage()
+  {
+    problem_.contact.slip().begin_step(state_.communicator());
+    if (is_first_rank(state_.communicator()))
+      n_table_bytes_ = table_.length();
   }
 
 
@@ -55,17 +75,17 @@ namespace talus
   void
   StaticStages<dim>::run_next()
   {
-    solver_.begin_stage(); // slip of a checkpoint goes to its ranks
-    const auto before = solver_.save();
+    begin_stage(); // slip of a checkpoint goes to its ranks
+    const auto before = save();
     if (stages_.next() == Stage::equilibrium)
       find_equilibrium(before);
     else
       reduce_strength(before);
-    if (!solver_.is_stopped() && stages_.next_precedes_dynamics() &&
-        equilibrium().newton().equations().has_well_balanced_load())
+    if (!equilibrium_.is_stopped() && stages_.next_precedes_dynamics() &&
+        equilibrium_.newton().equations().has_well_balanced_load())
       let_weight_act();
     state_.workspace.clear();
-    if (solver_.is_stopped())
+    if (equilibrium_.is_stopped())
       undo_stage(before);
     else
       stages_.mark_done();
@@ -77,9 +97,11 @@ namespace talus
   /// states not stored in checkpoints.
   template <int dim>
   void
-  StaticStages<dim>::undo_stage(const typename StaticSolver<dim>::Saved &before)
+  StaticStages<dim>::undo_stage(const Saved &before)
   {
-    solver_.undo_stage(before);
+    restore(before);
+    if (is_first_rank(state_.communicator()))
+      table_.cut(n_table_bytes_);
     if (strength_reduction_.includes_seabed())
       problem_.scale_seabed_strength(1. / standing_factor_);
     log_.say(LogLevel::result,
@@ -96,9 +118,11 @@ namespace talus
   {
     stages_.list_state(list);
     list.add("standing factor", "-", standing_factor_, Reduction::equal);
-    solver_.list_state(list);
+    table_.file().list_state(table_.file_name, list);
     if (stages_.contain(Stage::strength_reduction))
-      solver_.list_contact(list, [this]() { return stages_.next_is_static(); });
+      equilibrium_.contact().list_state(list, [this]() {
+        return stages_.next_is_static();
+      });
   }
 
 
@@ -109,8 +133,8 @@ namespace talus
   StaticStages<dim>::check() const
   {
     const std::vector<std::string> names_of_bodies = problem_.bodies().names();
-    if (stages_.contain(Stage::equilibrium))
-      equilibrium().check(problem_.materials, names_of_bodies);
+    if (stages_.has_static())
+      Equilibrium<dim>::check(problem_.materials, names_of_bodies);
     AssertThrow(!stages_.has_static() ||
                   problem_.loading.share_of_gravity(0.) > 0.,
                 ExcUser("Stages lists a stage before 'dynamics', computed with "
@@ -137,43 +161,125 @@ namespace talus
 
 
 
+  /// Collect references to the state and to all forces, with the loads at the
+  /// current time, constant during a static stage.
+  template <int dim>
+  StaticProblem<dim>
+  StaticStages<dim>::problem()
+  {
+    problem_.loading.update(state_.points, state_.time);
+    return {state_,
+            transfer_,
+            problem_.materials,
+            problem_.boundaries,
+            problem_.loading.loads(),
+            problem_.contact,
+            problem_.bodies().mudline()};
+  }
+
+
+
+  /// Copies all columns, and the contact with seabed and obstacles, in memory:
+  /// trials must be undone, and a checkpoint on disk would take longer.
+  template <int dim>
+  typename StaticStages<dim>::Saved
+  StaticStages<dim>::save() const
+  {
+    const Points<dim> &points = state_.points;
+    Saved              saved;
+    for (unsigned int i = 0; i < points.n_arrays(); ++i)
+      saved.columns.emplace_back(points.data(i),
+                                 points.data(i) + points.size());
+    saved.contact      = equilibrium_.newton().equations().contact();
+    saved.facet_forces = problem_.contact.save();
+    saved.slip         = problem_.contact.slip().rows();
+    return saved;
+  }
+
+
+
+  template <int dim>
+  void
+  StaticStages<dim>::restore(const Saved &saved)
+  {
+    for (unsigned int i = 0; i < saved.columns.size(); ++i)
+      std::copy(saved.columns[i].begin(),
+                saved.columns[i].end(),
+                state_.points.data(i));
+    equilibrium_.contact() = saved.contact;
+    problem_.contact.restore(saved.facet_forces);
+    problem_.contact.slip().restore(saved.slip);
+  }
+
+
+
+  /// Apply the load from zero to full. Nothing moves, which keeps the shape for
+  /// which a factor of safety is sought. In a trial the soil was in balance and
+  /// may have become weaker: first a load step without displacement returns the
+  /// stress to the new yield surface, and the resulting imbalance is the load.
+  /// A signal may be received by some ranks only.
+  template <int dim>
+  bool
+  StaticStages<dim>::solve(const StaticOptions &options,
+                           const SearchLabel   &label)
+  {
+    const bool is_first = is_first_rank(state_.communicator());
+    const auto observe  = [&](const EquilibriumProgress &progress) {
+      table_.add(label, progress, is_first);
+      return !Utilities::MPI::logical_or(!remembered_signal().empty(),
+                                         state_.communicator());
+    };
+    StaticProblem<dim> now = problem();
+    equilibrium_.begin(options);
+    if (label.is_trial)
+      equilibrium_.return_stress(now);
+    bool is_sound = true;
+    while (is_sound && !equilibrium_.is_balanced())
+      {
+        is_sound = equilibrium_.advance(now, observe);
+        table_.end_step(
+          {label.stage, label.strength_factor, label.is_trial || !is_sound});
+      }
+    return is_sound;
+  }
+
+
+
   /// If no balance is found, the run ends, unless a following strength
   /// reduction can determine the missing strength. @p before is the state
   /// without loads.
   template <int dim>
   void
-  StaticStages<dim>::find_equilibrium(
-    const typename StaticSolver<dim>::Saved &before)
+  StaticStages<dim>::find_equilibrium(const Saved &before)
   {
     log_.say(LogLevel::result, "Stage 'equilibrium':");
-    if (!solver_.find(equilibrium().options(equilibrium().measure()),
-                      {stages_.number(), 1.}) &&
-        !solver_.is_stopped())
+    if (!solve(equilibrium_.options(), {stages_.number(), 1.}) &&
+        !equilibrium_.is_stopped())
       {
         if (!stages_.contain(Stage::strength_reduction))
-          throw_no_equilibrium(solver_.no_equilibrium());
+          throw_no_equilibrium(no_equilibrium());
         find_equilibrium_with_more_strength(before);
       }
-    if (solver_.is_stopped())
+    if (equilibrium_.is_stopped())
       return;
     const auto [largest, place] =
-      equilibrium().newton().equations().largest_imbalance();
+      equilibrium_.newton().equations().largest_imbalance();
     log_.say(LogLevel::result,
              text(std::setprecision(6),
                   "Equilibrium was found in ",
-                  counted(equilibrium().n_steps(), "step"),
+                  counted(equilibrium_.n_steps(), "step"),
                   " with ",
-                  equilibrium().newton().n_unknowns(),
+                  equilibrium_.newton().n_unknowns(),
                   " unknowns (linear solver: ",
-                  equilibrium().newton().linear_solver(),
+                  equilibrium_.newton().linear_solver(),
                   "). The force out of balance, relative to the loads, is ",
-                  equilibrium().imbalance(),
+                  equilibrium_.imbalance(),
                   "; the largest nodal force out of balance is ",
                   largest,
                   " N, at ",
                   place,
                   "."));
-    if (equilibrium().newton().equations().reference_force() == 0.)
+    if (equilibrium_.newton().equations().reference_force() == 0.)
       log_.remark("The stage 'equilibrium' had nothing to balance: neither "
                   "gravity, 'Gravity/Magnitude', nor another load acts on "
                   "the soil, and the soil has no stress.");
@@ -187,7 +293,7 @@ namespace talus
   void
   StaticStages<dim>::tell_of_well_balanced_load() const
   {
-    const auto &equations = equilibrium().newton().equations();
+    const auto &equations = equilibrium_.newton().equations();
     if (!equations.has_well_balanced_load())
       return;
     const double        share = equations.well_balanced_share();
@@ -213,9 +319,9 @@ namespace talus
   void
   StaticStages<dim>::continue_with_dynamics()
   {
-    if (!equilibrium().options(StrainMeasure::small).is_well_balanced)
+    if (!equilibrium_.options().is_well_balanced)
       return;
-    solver_.begin_stage();
+    begin_stage();
     let_weight_act();
     state_.workspace.clear();
   }
@@ -230,31 +336,50 @@ namespace talus
   void
   StaticStages<dim>::let_weight_act()
   {
-    if (!stages_.contain(Stage::equilibrium) || standing_factor_ != 1. ||
-        equilibrium().measure() == StrainMeasure::large)
+    if (!stages_.contain(Stage::equilibrium) || standing_factor_ != 1.)
       return;
-    const auto before = solver_.save();
+    const auto before = save();
     // The last static stage, which is done if a resumed run adds the dynamics.
     const unsigned int stage =
       stages_.number() - (stages_.next_is_static() ? 0 : 1);
-    StaticOptions options    = equilibrium().options(StrainMeasure::small);
+    StaticOptions options    = equilibrium_.options();
     options.is_well_balanced = false;
-    if (solver_.find(options, {stage, 1., true}))
+    if (solve(options, {stage, 1., true}))
       log_.say(LogLevel::result,
                text("For the dynamics the weight acts without the correction "
                     "of the well-balanced load; balance was found in ",
-                    counted(equilibrium().n_steps(), "step"),
+                    counted(equilibrium_.n_steps(), "step"),
                     "."));
-    else if (!solver_.is_stopped())
+    else if (!equilibrium_.is_stopped())
       {
-        solver_.restore(before);
+        restore(before);
         log_.remark(
           "The dynamics takes the weight without the correction "
           "of the well-balanced load, for which no balance was found. " +
-          equilibrium().failure() +
+          equilibrium_.failure() +
           ". It starts from the balance with the correction, so that soil in "
           "partly filled cells may move a little in the first seconds.");
       }
+  }
+
+
+
+  /// State the fraction of the load reached and, in softening soil, how far it
+  /// has yielded, in sentences for the user. The points are in the last
+  /// balance.
+  template <int dim>
+  std::string
+  StaticStages<dim>::no_equilibrium() const
+  {
+    return text("The stage 'equilibrium' found no balance ",
+                equilibrium_.load() > 0. ? text(std::setprecision(6),
+                                                "beyond ",
+                                                equilibrium_.load(),
+                                                " of the load. ")
+                                         : text("at any load. "),
+                equilibrium_.failure(),
+                ".",
+                note_on_softening(state_, problem_));
   }
 
 
@@ -268,8 +393,7 @@ namespace talus
     throw ExcUser(
       sentence +
       " 'no-equilibrium' in the output folder shows where the soil moved. "
-      "Either the soil cannot bear its weight, and needs more strength or "
-      "support before the trigger" +
+      "Either the soil needs more strength or support before the trigger" +
       (stages_.contain(Stage::strength_reduction)
          ? ""
          : " (a following stage 'strength reduction' finds how much)") +
@@ -295,28 +419,14 @@ namespace talus
 
 
 
-  /// Small strain keeps the shape for which the factor of safety is sought:
-  /// with large strain and slightly more strength the slope would stand after a
-  /// long displacement. Hyperelastic laws support large strain only.
-  template <int dim>
-  StrainMeasure
-  StaticStages<dim>::measure_of_stronger_soil() const
-  {
-    return problem_.has_hyperelastic_body() ? StrainMeasure::large
-                                            : StrainMeasure::small;
-  }
-
-
-
   /// The soil does not stand with the actual strength. To provide an initial
   /// state for the stage 'strength reduction', search for a strength with which
   /// the soil stands. @p before is the state without loads.
   template <int dim>
   void
-  StaticStages<dim>::find_equilibrium_with_more_strength(
-    const typename StaticSolver<dim>::Saved &before)
+  StaticStages<dim>::find_equilibrium_with_more_strength(const Saved &before)
   {
-    const std::string sentence = solver_.no_equilibrium();
+    const std::string sentence = no_equilibrium();
     log_.say(LogLevel::result,
              sentence +
                " The soil seems too weak for its weight. For the following "
@@ -335,12 +445,11 @@ namespace talus
                                "either. " +
                                strength_reduction_.result());
         const double factor = strength_reduction_.next();
-        solver_.restore_and_relocate(before);
+        restore(before);
         divide_strength(factor);
         const bool stands =
-          solver_.find(equilibrium().options(measure_of_stronger_soil()),
-                       {stages_.number(), factor});
-        if (solver_.is_stopped())
+          solve(equilibrium_.options(), {stages_.number(), factor});
+        if (equilibrium_.is_stopped())
           return;
         strength_reduction_.record(factor, stands);
         log_.say(LogLevel::result,
@@ -348,7 +457,7 @@ namespace talus
                       "  strength x ",
                       1. / factor,
                       stands ? ": stands"
-                             : ": fails. " + equilibrium().failure()));
+                             : ": fails. " + equilibrium_.failure()));
       }
     standing_factor_ = strength_reduction_.lower();
   }
@@ -359,8 +468,7 @@ namespace talus
   /// beginning of the stage. Collective.
   template <int dim>
   void
-  StaticStages<dim>::reduce_strength(
-    const typename StaticSolver<dim>::Saved &before)
+  StaticStages<dim>::reduce_strength(const Saved &before)
   {
     log_.say(LogLevel::result, "Stage 'strength reduction':");
     strength_reduction_.begin(
@@ -369,14 +477,13 @@ namespace talus
     if (stages_.contain(Stage::equilibrium))
       start_reduction();
     search_factor();
-    if (solver_.is_stopped())
+    if (equilibrium_.is_stopped())
       return;
-    solver_.restore(before);
+    restore(before);
     problem_.scale_seabed_strength(
       strength_reduction_.includes_seabed() ? 1. / standing_factor_ : 1.);
     log_.say(LogLevel::result, strength_reduction_.result());
-    if (!stages_.contain(Stage::equilibrium) ||
-        equilibrium().measure() == StrainMeasure::large)
+    if (!stages_.contain(Stage::equilibrium))
       tell_of_well_balanced_load();
     const auto notes =
       failure_depth_.notes(state_, problem_, strength_reduction_.factor());
@@ -397,12 +504,12 @@ namespace talus
   void
   StaticStages<dim>::search_factor()
   {
-    auto state = solver_.save();
-    while (!solver_.is_stopped() && !strength_reduction_.is_done())
+    auto state = save();
+    while (!equilibrium_.is_stopped() && !strength_reduction_.is_done())
       {
         const double factor = strength_reduction_.next();
         const bool   stands = is_stable_with(factor);
-        if (solver_.is_stopped())
+        if (equilibrium_.is_stopped())
           return;
         strength_reduction_.record(factor, stands);
         log_.say(
@@ -413,16 +520,16 @@ namespace talus
                    "  strength / ",
                    factor,
                    ": fails. ",
-                   equilibrium().failure()));
+                   equilibrium_.failure()));
         if (stands)
-          state = solver_.save();
+          state = save();
         else // the last failed trial has the smallest factor
           {
             write_mechanism("mechanism");
             failure_depth_.record(
-              equilibrium().newton().mechanism(state_.points));
+              equilibrium_.newton().mechanism(state_.points));
           }
-        solver_.restore(state);
+        restore(state);
       }
   }
 
@@ -436,15 +543,14 @@ namespace talus
   {
     strength_reduction_.record(standing_factor_, true);
     AssertThrow(
-      is_stable_with(standing_factor_) || solver_.is_stopped(),
+      is_stable_with(standing_factor_) || equilibrium_.is_stopped(),
       ExcUser(text(
         "The stage 'strength reduction' starts from soil that is out of "
-        "balance in small strain, so that no factor of safety exists. ",
-        equilibrium().failure(),
-        ". Set 'Equilibrium/Strain' to small or 'Equilibrium/Allowed "
-        "imbalance' to less; or, if the imbalance is small against the "
-        "required 'Tolerance' of the factor, set 'Strength reduction/Allowed "
-        "imbalance' to more.")));
+        "balance, so that no factor of safety exists. ",
+        equilibrium_.failure(),
+        ". Set 'Equilibrium/Allowed imbalance' to less; or, if the imbalance "
+        "is small against the required 'Tolerance' of the factor, set "
+        "'Strength reduction/Allowed imbalance' to more.")));
   }
 
 
@@ -455,9 +561,8 @@ namespace talus
   StaticStages<dim>::is_stable_with(const double factor)
   {
     divide_strength(factor);
-    return solver_.find(strength_reduction_.options(
-                          factor, equilibrium().options(StrainMeasure::small)),
-                        {stages_.number(), factor, true});
+    return solve(strength_reduction_.options(factor, equilibrium_.options()),
+                 {stages_.number(), factor, true});
   }
 
 
@@ -490,7 +595,7 @@ namespace talus
   {
     output_.write_mechanism(state_,
                             name,
-                            equilibrium().newton().mechanism(state_.points));
+                            equilibrium_.newton().mechanism(state_.points));
   }
 
 

@@ -11,7 +11,6 @@
 #include <talus/terrain/named_surface.h>
 #include <talus/terrain/plan_place.h>
 #include <talus/terrain/project_raster.h>
-#include <talus/terrain/smooth_raster.h>
 
 #include <deal.II/base/utilities.h>
 

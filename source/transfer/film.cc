@@ -46,7 +46,7 @@ namespace talus
         nodes.sum(node)[NodalSum<dim>::volume] += share;
     });
     nodes.sum_over_ranks(grid);
-    nodes.share_volumes(grid);
+    nodes.share_volumes();
   }
 
 

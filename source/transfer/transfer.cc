@@ -36,15 +36,6 @@ namespace talus
       "domain: lower limit of half the distance between opposite sides.",
       this->prm,
       Patterns::Double(1e-3, 0.5));
-    add_parameter("Maximum half-size",
-                  box_shape_.max_half,
-                  "Upper limit of the half length of a box in the weights, in "
-                  "cell sizes [-]; a longer box would reach beyond the "
-                  "touching cells. A convected domain may reach twice as far "
-                  "from its centre along each axis, in sizes of the smallest "
-                  "touching cell.",
-                  this->prm,
-                  Patterns::Double(1e-3, 0.5));
     add_parameter("Mass cut-off",
                   mass_cut_off_,
                   "Nodes with less mass than this fraction of the mass of a "
@@ -95,20 +86,6 @@ namespace talus
                       : box_rule_ == "convected domain"
                         ? BoxRule::convected_domain
                         : parallel;
-  }
-
-
-
-  template <int dim>
-  void
-  Transfer<dim>::check() const
-  {
-    AssertThrow(box_shape_.min_half <= box_shape_.max_half,
-                ExcUser(text("Transfer/Minimum half-size = ",
-                             box_shape_.min_half,
-                             " must not exceed Transfer/Maximum half-size = ",
-                             box_shape_.max_half,
-                             ".")));
   }
 
 
@@ -313,10 +290,6 @@ namespace talus
 
   template Transfer<2>::Transfer();
   template Transfer<3>::Transfer();
-  template void
-  Transfer<2>::check() const;
-  template void
-  Transfer<3>::check() const;
   template double
   Transfer<2>::mass_cutoff(double, double) const;
   template double

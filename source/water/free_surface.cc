@@ -149,6 +149,7 @@ namespace talus
     is_node_of_facets_.assign(grid.n_nodes(), 0);
     nodes_of_facets_.clear();
     filled_nodes_.clear();
+    covered_nodes_.clear();
     soil_nodes_.clear();
     listed_cells_.clear();
     move_facets(grid);
@@ -178,7 +179,8 @@ namespace talus
 
 
   /// List the nodes whose soil determines the velocities of the facets: nodes
-  /// of facets, masters of hanging nodes among them, and nodes of other ranks.
+  /// of facets, masters of hanging nodes among them, and the nodes of this rank
+  /// that other ranks list. Collective.
   template <int dim>
   void
   FreeSurface<dim>::list_nodes_of_facets(const Grid<dim> &grid)
@@ -194,9 +196,6 @@ namespace talus
     };
     for (const SurfaceFacet<dim> &facet : facets())
       std::for_each(facet.node.begin(), facet.node.end(), add);
-    std::for_each(grid.interface_nodes().begin(),
-                  grid.interface_nodes().end(),
-                  add);
     for (const HangingNode &hanging : grid.hanging_nodes())
       if (is_node_of_facets_[hanging.node])
         {
@@ -204,20 +203,29 @@ namespace talus
           for (const auto &master : hanging.masters)
             add(master.first);
         }
+    // Ask the owners of the ghosts; set_mobilities() clears the marks.
+    std::fill(area_per_mass_.begin() + grid.n_owned_nodes(),
+              area_per_mass_.end(),
+              0.);
+    for (const unsigned int node : nodes_of_facets_)
+      if (node >= grid.n_owned_nodes())
+        area_per_mass_[node] = 1.;
+    exchange_of_loads_.add_to_owners(area_per_mass_.data());
+    std::for_each(exchange_of_loads_.received_nodes().begin(),
+                  exchange_of_loads_.received_nodes().end(),
+                  add);
   }
 
 
 
   template <int dim>
   void
-  FreeSurface<dim>::find(const State<dim>        &state,
-                         const FacetContact<dim> &contact)
+  FreeSurface<dim>::find(const State<dim> &state, const Contact<dim> &contact)
   {
     const Grid<dim> &grid = state.grid;
-    // Records of other ranks come back by messages.
     filled_nodes_.insert(filled_nodes_.end(),
-                         grid.interface_nodes().begin(),
-                         grid.interface_nodes().end());
+                         covered_nodes_.begin(),
+                         covered_nodes_.end());
     for (const unsigned int node : filled_nodes_)
       std::fill_n(record(node), width, 0.);
     filled_nodes_.clear();
@@ -247,7 +255,7 @@ namespace talus
   /// nodes.
   template <int dim>
   void
-  FreeSurface<dim>::add_contact_areas(const FacetContact<dim> &contact)
+  FreeSurface<dim>::add_contact_areas(const Contact<dim> &contact)
   {
     const auto &facets = contact.facets().owned();
     for (unsigned int f = 0; f < facets.size(); ++f)
@@ -267,13 +275,14 @@ namespace talus
   /// Fill the records of all nodes. Collective.
   template <int dim>
   void
-  FreeSurface<dim>::fill_records(const State<dim>        &state,
-                                 const FacetContact<dim> &contact)
+  FreeSurface<dim>::fill_records(const State<dim>   &state,
+                                 const Contact<dim> &contact)
   {
     const NodalFields<dim> &nodes = state.nodes;
     if (solid_.exists())
       add_contact_areas(contact);
     exchange_.add_to_owners(records_.data());
+    covered_nodes_ = exchange_.received_nodes();
     for (const unsigned int node : nodes.active_nodes())
       if (nodes.mass(node) > state.constants.mass_cutoff)
         {
@@ -285,7 +294,10 @@ namespace talus
     at_bottom_.for_each_node(
       [&](const unsigned int face, const unsigned int node) {
         double *const to = record(node);
-        to[bottom] = at_bottom_.share(state.grid, face, node, to[fraction]);
+        to[bottom]       = at_bottom_.share(face,
+                                      node,
+                                      state.grid.face_share(face, node).area,
+                                      to[fraction]);
       });
     exchange_.copy_to_ghosts(records_.data());
     for (const HangingNode &hanging : state.grid.hanging_nodes())

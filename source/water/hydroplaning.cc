@@ -38,7 +38,7 @@ namespace talus
   Hydroplaning<dim>::Hydroplaning(const Materials<dim>  &materials,
                                   const Water<dim>      &water,
                                   const Boundaries<dim> &boundaries,
-                                  FacetContact<dim>     &contact)
+                                  Contact<dim>          &contact)
     : ParameterAcceptor("/Boundaries/Seabed/Hydroplaning")
     , materials_(materials)
     , water_(water)

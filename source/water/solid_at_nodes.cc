@@ -45,8 +45,7 @@ namespace talus
 
   template <int dim>
   void
-  SolidAtNodes<dim>::update(const Grid<dim>         &grid,
-                            const FacetContact<dim> &contact)
+  SolidAtNodes<dim>::update(const Grid<dim> &grid, const Contact<dim> &contact)
   {
     exists_ = !contact.obstacles().empty();
     if (!exists_ || (is_known_ && !contact.obstacles().move()))
@@ -80,8 +79,8 @@ namespace talus
   /// size: no vertex is farther from an obstacle than three diameters.
   template <int dim>
   void
-  SolidAtNodes<dim>::find_distances(const Grid<dim>         &grid,
-                                    const FacetContact<dim> &contact)
+  SolidAtNodes<dim>::find_distances(const Grid<dim>    &grid,
+                                    const Contact<dim> &contact)
   {
     distance_.assign(grid.n_nodes(), std::numeric_limits<double>::quiet_NaN());
     for (const Cell<dim> &cell : grid.cells())

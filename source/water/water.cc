@@ -13,8 +13,8 @@ namespace talus
   using namespace dealii;
 
   template <int dim>
-  Water<dim>::Water(const Materials<dim>    &materials,
-                    const FacetContact<dim> &contact)
+  Water<dim>::Water(const Materials<dim> &materials,
+                    const Contact<dim>   &contact)
     : ParameterAcceptor("/Water")
     , materials_(materials)
     , contact_(contact)

@@ -3,7 +3,6 @@
 // a number that counts. Not a measurement of time: the counter "operations" is
 // what matters.
 
-#include <talus/materials/strength_factor.h>
 #include <talus/materials/von_mises_kernel.h>
 #include <talus/points/points.h>
 #include <talus/points/step_workspace.h>
@@ -158,15 +157,17 @@ namespace
   step_of_law(const FlowRule &flow_rule)
   {
     StrainedPoint<dim> point;
+    StrengthOfPoints   strength;
+    strength.softening_column = Points<dim>::generation;
     benchmark::DoNotOptimize(update_rate_law_points<dim, Counted, 1>(
       RateLawStep<dim, FlowRule>{point.points.view(),
                                  point.workspace.view(0, 1),
                                  Points<dim>::generation,
                                  1.,
                                  Moduli{1., 1., 1.},
-                                 flow_rule},
-      0,
-      no_strength_factor));
+                                 flow_rule,
+                                 strength},
+      0));
   }
 
 
@@ -184,7 +185,7 @@ namespace
   void
   von_mises_stress()
   {
-    step_of_law<dim>(VonMisesFlow{1., 1., 0.1, 1.});
+    step_of_law<dim>(VonMisesFlow{1., 0.1, 1.});
   }
 
 

@@ -38,12 +38,18 @@ class BadInputStages(Case):
             with self.subTest(stages):
                 self.refuse_settings(["Stages=" + stages], "Stages", *words)
 
-    def test_small_strain_of_a_hyperelastic_law(self):
-        self.refuse_settings(["Stages=equilibrium",
-                              "Materials/clay/Law=Hencky"],
-                             "'Equilibrium/Strain' is small", "'block'",
-                             "large", "rate form",
-                             content=GOOD)
+    def test_hyperelastic_law(self):
+        for stage in "equilibrium", "strength reduction":
+            self.refuse_settings(["Stages=" + stage,
+                                  "Materials/clay/Law=Hencky"],
+                                 "'block' follows from its deformation",
+                                 "rate form", "'Gravity/Ramp time'",
+                                 content=GOOD)
+
+    def test_former_strain_measure(self):
+        self.refuse_settings(["Equilibrium/Strain=large"],
+                             "no parameter 'Strain'", "always use small strain",
+                             "'Gravity/Ramp time'", content=GOOD)
 
     def test_no_gravity_at_the_start(self):
         for stages in ("equilibrium", "strength reduction",
@@ -147,7 +153,7 @@ class BadInputStages(Case):
 
     def test_reduction_from_soil_out_of_balance(self):
         self.assert_refused(
-            self.run_slope("Equilibrium/Strain=large",
+            self.run_slope("Equilibrium/Allowed imbalance=1e-3",
                            "Strength reduction/Allowed imbalance=1e-12"),
             "'strength reduction' starts from soil that is out of balance",
             "but at most 1e-12 is allowed", "'Equilibrium/Allowed imbalance'",

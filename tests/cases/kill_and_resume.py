@@ -183,13 +183,12 @@ class StopAndResume(Case):
 
 
 class MeshThatChanges(KillAndResume):
-    """The same with a mesh that follows the soil, and HDF5 output."""
+    """The same with a mesh that follows the soil."""
 
     N_KILLS = 8
     settings = SETTINGS + ["Mesh tracking/Enabled=true",
                            "Mesh tracking/Margin=4",
-                           "Mesh tracking/Interval=50",
-                           "Output/Format=hdf5"]
+                           "Mesh tracking/Interval=50"]
 
 
 class SoilLeaves(Case):
@@ -257,7 +256,8 @@ class SlideOverObstacles(KillAndResume):
                            "Water/Added mass coefficient=0.1",
                            "Water/Skin friction coefficient=0.01",
                            "Water/Pressure drag coefficient=1",
-                           "Maps/Write=true", "Stations/Points=toe: 35",
+                           "Maps/Write=true", "Output/Plan interval=0.5",
+                           "Stations/Points=toe: 35",
                            "Stations/Lines=route: 20; 60"]
 
 

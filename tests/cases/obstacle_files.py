@@ -36,13 +36,11 @@ def values(element):
     return [tuple(numbers[i:i + n]) for i in range(0, len(numbers), n)]
 
 
-def read_vtu(path):
-    """Time and cells: a list of dictionaries, with the corners of each."""
-    root = xml.etree.ElementTree.parse(path).getroot()
-    vertices = values(root.find(".//Points/DataArray"))
-    mesh = {a.get("Name"): values(a) for a in root.findall(".//Cells/DataArray")}
-    data = {a.get("Name"): values(a)
-            for a in root.findall(".//CellData/DataArray")}
+def cells_of(piece):
+    """The cells of a piece of a file: a list of dictionaries, with the corners of each."""
+    vertices = values(piece.find("Points/DataArray"))
+    mesh = {a.get("Name"): values(a) for a in piece.findall("Cells/DataArray")}
+    data = {a.get("Name"): values(a) for a in piece.findall("CellData/DataArray")}
     cells, first = [], 0
     for i, last in enumerate(mesh["offsets"]):
         cell = {name: column[i] for name, column in data.items()}
@@ -51,6 +49,13 @@ def read_vtu(path):
         cell["type"] = mesh["types"][i]
         first = last
         cells.append(cell)
+    return cells
+
+
+def read_vtu(path):
+    """Time and cells of all ranks, each of which has a piece."""
+    root = xml.etree.ElementTree.parse(path).getroot()
+    cells = [cell for piece in root.iter("Piece") for cell in cells_of(piece)]
     return float(root.find(".//FieldData/DataArray").text), cells
 
 

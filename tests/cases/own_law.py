@@ -48,7 +48,7 @@ def check(level, version, environment):
         env=environment)
     with open(output / "statistics.csv", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    for row in rows:
+    for row in rows[-2:]:
         found, expected = float(row["centre y [m]"]), centre()
         if abs(found - expected) > 5e-5 * expected:
             sys.exit(f"{version}: centre at {found} m, not at {expected} m")

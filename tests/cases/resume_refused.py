@@ -41,7 +41,6 @@ class ResumeRefused(Case):
     def damage(self, checkpoint, file="state.h5"):
         path = self.checkpoints("run")[checkpoint] / file
         data = bytearray(path.read_bytes())
-        # Far from the end, where the arrays of the points are.
         data[len(data) // 3] ^= 16
         path.write_bytes(data)
         self.before = self.content("run", [])
@@ -61,23 +60,27 @@ class ResumeRefused(Case):
     def test_both_damaged(self):
         self.damage(-1)
         self.damage(-2, "mesh")
-        self.refuse([], "is damaged: the checksum of 'points/",
-                    "mesh files do not match", "--overwrite")
+        self.refuse([], "is damaged: the checksum of 'state.h5' does not match",
+                    "the checksum of 'mesh' does not match", "--overwrite")
 
     def test_empty_and_missing_files(self):
         newest, previous = self.checkpoints("run")[::-1]
         (newest / "state.h5").write_bytes(b"")
         (previous / "mesh").unlink()
         self.before = self.content("run", [])
-        self.refuse([], "could not be opened", "mesh files do not match")
+        self.refuse([], "the checksum of 'state.h5' does not match",
+                    "the checksum of 'mesh' does not match")
+        (newest / "checksums").unlink()
+        self.before = self.content("run", [])
+        self.refuse([], "'checksums' is missing or damaged")
 
     def test_damaged_and_previous(self):
-        self.damage(-1)
+        self.damage(-1, "mesh_variable.data")
         newest, previous = self.checkpoints("run")[::-1]
         result = self.run_talus("run", ["End time=0.3"], ["--resume"])
         self.assert_ends(result)
         sentence = (f"The checkpoint '{newest}' is damaged: the checksum of "
-                    "'points/")
+                    "'mesh_variable.data' does not match its content.")
         log = (self.folder / "run" / "log.txt").read_text()
         for text in (result.stdout, log):
             self.assertIn(sentence, text)
@@ -96,7 +99,7 @@ class ResumeRefused(Case):
                 ("Materials/clay/Poisson's ratio=0.48", "'0.49'"),
                 ("Materials/clay/Undrained shear strength=2e3", "'2e3'"),
                 ("Boundaries/Seabed/Maximum shear stress=9e2", "'9e2'"),
-                ("Output/Format=hdf5", "'hdf5'", "'vtu'"),
+                ("Output/Runout=false", "'false'", "'true'"),
                 ("Splitting/Threshold=1.5", "'1.5'", "'1.4'")):
             self.refuse([setting], "The parameter '" + setting.split("=")[0],
                         *words)

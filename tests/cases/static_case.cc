@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "static_case.h"
 
-#include <talus/base/errors.h>
-
-#include <algorithm>
-#include <iomanip>
-
 namespace talus::cases
 {
   namespace
@@ -28,15 +23,6 @@ namespace talus::cases
               "Output/Folder=" + folder_of(name).string()};
     }
 
-
-
-    bool
-    falls(const std::vector<double> &residuals,
-          const double               upper,
-          const double               lower)
-    {
-      return residuals.front() > upper && residuals.back() < lower;
-    }
   } // namespace
 
 
@@ -61,53 +47,6 @@ namespace talus::cases
   StaticCase<dim>::factor_of_safety() const
   {
     return simulation_.static_stages().strength_reduction().factor();
-  }
-
-
-
-  std::vector<std::vector<double>>
-  residuals(const Table &newton)
-  {
-    std::vector<std::vector<double>> result;
-    for (unsigned int i = 0; i < newton.n_rows(); ++i)
-      {
-        if (newton["iteration"][i] == 0.)
-          result.emplace_back();
-        result.back().push_back(newton["residual [-]"][i]);
-      }
-    return result;
-  }
-
-
-
-  double
-  quadratic_constant(const Table &newton,
-                     const double upper,
-                     const double lower)
-  {
-    double result = 0;
-    for (const std::vector<double> &list : residuals(newton))
-      for (unsigned int k = 1; k < list.size(); ++k)
-        if (list[k - 1] < upper && list[k] > lower)
-          result = std::max(result, list[k] / (list[k - 1] * list[k - 1]));
-    return result;
-  }
-
-
-
-  std::string
-  a_sequence(const Table &newton, const double upper, const double lower)
-  {
-    for (const std::vector<double> &list : residuals(newton))
-      if (falls(list, upper, lower))
-        {
-          std::string result;
-          for (const double residual : list)
-            result +=
-              text(result.empty() ? "" : ", ", std::setprecision(2), residual);
-          return result;
-        }
-    return "none";
   }
 
 

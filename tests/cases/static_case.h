@@ -57,22 +57,6 @@ namespace talus::cases
     const Points<dim>     &points_;
     Table                  newton_;
   };
-
-
-
-  /// Residuals of Newton's method, one list for each time it was begun.
-  std::vector<std::vector<double>>
-  residuals(const Table &newton);
-
-  /// The largest C in r_{k+1} = C r_k^2 over all steps from a residual below
-  /// @p upper to one that is above @p lower, where round-off does not count
-  /// yet.
-  double
-  quadratic_constant(const Table &newton, double upper, double lower);
-
-  /// The first list that falls from above @p upper to below @p lower, in words.
-  std::string
-  a_sequence(const Table &newton, double upper, double lower);
 } // namespace talus::cases
 
 #endif

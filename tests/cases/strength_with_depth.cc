@@ -254,6 +254,6 @@ TEST(StrengthWithDepth, WhatCannotBeIsSaid)
                    clay + "Law=Bingham",
                    clay + "Remoulded strength ratio=0.2",
                    clay + "Plastic shear strain to remould=0.5"})
-              .find("would soften faster than elastic unloading"),
+              .find("soften faster than it can unload"),
             std::string::npos);
 }

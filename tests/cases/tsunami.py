@@ -13,6 +13,8 @@ import unittest
 
 from ranks_case import PRM, TALUS, Case
 
+TOOL = PRM.parent / "share" / "talus" / "talus-tsunami"
+
 
 def read_dtopo(path):
     """Header, and the blocks as lists of rows, the northernmost row first."""
@@ -43,12 +45,22 @@ def read_raster(path):
 class Tsunami(Case):
     SECTION = ["Grid/Cell size=0.8", "End time=2", "Output/Write points=false",
                "Output/Write grid=false", "Maps/Write=true",
-               "Tsunami source/Write=true", "Tsunami source/Interval=0.5",
-               "Tsunami source/Width=40", "Tsunami source/Water depth=100"]
+               "Output/Plan interval=0.5"]
+    SECTION_OPTIONS = ["--width", "40", "--water-depth", "100"]
     SLIDE_3D = ["Grid/Cell size=1.2", "End time=0.35", "Maps/Write=true",
                 "Maps/Cell size=2.4", "Output/Field interval=0.1",
-                "Grid/Origin=5e5, 6.5e6, -100", "Tsunami source/Write=true",
-                "Tsunami source/Interval=0.1", "Tsunami source/Start time=60"]
+                "Grid/Origin=5e5, 6.5e6, -100", "Output/Plan interval=0.1"]
+
+    def tool(self, folder, options):
+        """Make the source of a run, by the first line of the tool."""
+        return subprocess.run([TOOL, folder, *options], capture_output=True,
+                              text=True, timeout=300)
+
+    def make_source(self, folder, options):
+        """Make the source without an error; return the folder."""
+        result = self.tool(folder, options)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        return folder
 
     def check_volumes(self, head, blocks, table, soil):
         """The sum of a block is the change of the volume of the soil."""
@@ -65,8 +77,33 @@ class Tsunami(Case):
         self.assertEqual(set(map(tuple, blocks[0])), {(0.,) * len(blocks[0][0])})
         self.assertGreater(table[-1]["volume raised [m^3]"], 1e-3 * soil)
 
+    def check_sums(self, folder, statistics):
+        """The whole soil, column -1, is the soil of the statistics and the sum
+        over the columns, at all times that both tables have."""
+        rows = read_table(folder / "plan.csv")
+        known = {row["time [s]"]: row for row in statistics}
+        times = {row["time [s]"] for row in rows} & set(known)
+        self.assertGreater(len(times), 3)
+        for time_ in times:
+            now = [row for row in rows if row["time [s]"] == time_]
+            self.assertEqual([row["column"] for row in now],
+                             sorted({row["column"] for row in now}))
+            whole, *columns = now
+            self.assertEqual(whole["column"], -1)
+            for name, exact in (("mass [kg/m]", "mass [kg]"),
+                                ("momentum x [N s/m]", "momentum x [kg m/s]"),
+                                ("volume [m^2]", None)):
+                scale = max(abs(whole[name]), 1e-9)
+                total = math.fsum(row[name] for row in columns)
+                self.assertLessEqual(abs(total - whole[name]), 1e-12 * scale, name)
+                if exact:
+                    self.assertLessEqual(abs(known[time_][exact] - whole[name]),
+                                         1e-12 * scale, name)
+
     def test_section(self):
-        folder = self.run_talus("one", "landslide-quick.prm", self.SECTION)
+        folder = self.make_source(
+            self.run_talus("one", "landslide-quick.prm", self.SECTION),
+            self.SECTION_OPTIONS)
         head, blocks = read_dtopo(folder / "tsunami-source.tt3")
         table = read_table(folder / "tsunami-source.csv")
         maps = {round(row["x [m]"], 9): row
@@ -89,6 +126,7 @@ class Tsunami(Case):
         self.assertGreater(found, 40)
         for block in blocks:
             self.assertEqual(len(set(map(tuple, block))), 1)
+        self.check_sums(folder, statistics)
         # The centre of mass: velocity at the end, acceleration from rest.
         self.assertAlmostEqual(table[-1]["centre velocity x [m/s]"],
                                statistics[-1]["centre velocity x [m/s]"], 9)
@@ -102,7 +140,9 @@ class Tsunami(Case):
                            / math.sqrt(981) * (1 - 1e-12))
 
     def test_slide_3d(self):
-        folder = self.run_talus("one", "landslide-3d.prm", self.SLIDE_3D)
+        options = ["--start-time", "60"]
+        folder = self.make_source(
+            self.run_talus("one", "landslide-3d.prm", self.SLIDE_3D), options)
         head, blocks = read_dtopo(folder / "tsunami-source.tt3")
         grid, start = read_raster(folder / "maps" / "thickness-at-start.asc")
         _, final = read_raster(folder / "maps" / "final-thickness.asc")
@@ -122,7 +162,8 @@ class Tsunami(Case):
                 self.assertLessEqual(abs(change - (after - before)), 2e-15)
                 changed += change != 0
         self.assertGreater(changed, 20)
-        other = self.run_talus("two", "landslide-3d.prm", self.SLIDE_3D, 2)
+        other = self.make_source(
+            self.run_talus("two", "landslide-3d.prm", self.SLIDE_3D, 2), options)
         other_head, other_blocks = read_dtopo(other / "tsunami-source.tt3")
         self.assertEqual(head, other_head)
         for rows in zip(sum(blocks, []), sum(other_blocks, [])):
@@ -130,7 +171,7 @@ class Tsunami(Case):
                 self.assertLessEqual(abs(a - b), 1e-9)
 
     def test_resumed(self):
-        """Killed after a checkpoint with some blocks: the same files bit by bit."""
+        """Killed after a checkpoint with some states: the same files bit by bit."""
         whole = self.run_talus("whole", "landslide-quick.prm", self.SECTION)
         command = [TALUS, PRM / "landslide-quick.prm", "--output", "killed", *[
             o for s in self.SECTION + ["Checkpoint/Step interval=50"]
@@ -146,41 +187,46 @@ class Tsunami(Case):
         self.assertLess(max(steps), 1000, "the run had nearly ended")
         subprocess.run([*command, "--resume"], cwd=self.folder, check=True,
                        stdout=subprocess.DEVNULL, timeout=600)
-        for name in ("tsunami-source.tt3", "tsunami-source.csv"):
+        for folder in (whole, self.folder / "killed"):
+            self.make_source(folder, self.SECTION_OPTIONS)
+        for name in ("plan.csv", "plan-cells.csv", "tsunami-source.tt3",
+                     "tsunami-source.csv"):
             self.assertEqual((whole / name).read_bytes(),
                              (self.folder / "killed" / name).read_bytes(), name)
 
     def test_netcdf(self):
-        """Read back by GDAL in the unit tests; here the file is there."""
-        result = self.start("run", 1, self.SECTION + [
-            "End time=0.6", "Tsunami source/Write netCDF=true"],
-            "landslide-quick.prm")
-        self.assertEqual((result.returncode, result.stderr), (0, ""))
-        content = (self.folder / "run" / "tsunami-source.nc").read_bytes()
+        """Read back by GDAL in report/tsunami.Netcdf; here the file is there."""
+        folder = self.make_source(
+            self.run_talus("run", "landslide-quick.prm",
+                           self.SECTION + ["End time=0.6"]),
+            self.SECTION_OPTIONS + ["--netcdf"])
+        content = (folder / "tsunami-source.nc").read_bytes()
         self.assertEqual(content[:4], b"\x89HDF")
-        # The next run without a source removes the files.
+        # The next run without a series removes the files.
         self.run_talus("run", "landslide-quick.prm", self.SECTION[:4])
-        self.assertEqual(list((self.folder / "run").glob("tsunami*")), [])
+        for name in ("tsunami*", "plan*"):
+            self.assertEqual(list(folder.glob(name)), [])
 
     def test_refused(self):
         for file, settings, words in (
-                ("landslide-quick.prm", self.SECTION[:7], "'Tsunami source/Width' is 0"),
-                ("landslide-3d.prm", self.SLIDE_3D + ["Tsunami source/Width=3"],
-                 "has a width of its own"),
-                ("landslide-3d.prm", self.SLIDE_3D
-                 + ["Tsunami source/Cell size=1e-3"], "where 10000000 are the most"),
-                ("landslide-quick.prm", self.SECTION
-                 + ["Tsunami source/Width=1e30"], "are the most"),
-                ("landslide-quick.prm", self.SECTION
-                 + ["Tsunami source/Coordinates=degrees"],
-                 "section has no place on a map"),
-                ("landslide-3d.prm", self.SLIDE_3D
-                 + ["Tsunami source/Coordinates=degrees"],
-                 "coordinate system of the map is not known"),
-                ("landslide-quick.prm", self.SECTION
-                 + ["Tsunami source/Interval=1e-6"],
-                 "shorter than the time step")):
+                ("landslide-3d.prm", self.SLIDE_3D + ["Maps/Cell size=1e-3"],
+                 "The maps would have"),
+                ("landslide-quick.prm", ["Tsunami source/Write=true"],
+                 "`talus-tsunami FOLDER` makes the source"),
+                ("landslide-3d.prm", self.SLIDE_3D + ["Maps/Raster=lost"],
+                 "no surface with a raster")):
             result = self.start("run", 1, settings, file)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(words, result.stderr)
+        folder = self.run_talus("run", "landslide-quick.prm",
+                                self.SECTION + ["End time=0.6"])
+        for options, words in (
+                ([], "Give the width of the slide"),
+                (["--width", "1e30"], "are the most"),
+                (self.SECTION_OPTIONS + ["--degrees"], "section has no place on a map"),
+                (self.SECTION_OPTIONS + ["--interval", "1e-6"],
+                 "Give a longer --interval")):
+            result = self.tool(folder, options)
             self.assertEqual(result.returncode, 1)
             self.assertIn(words, result.stderr)
 

@@ -308,8 +308,6 @@ class Ranks(EveryTool):
         self.assertEqual(tiles[0].keys(), tiles[1].keys())
         for name, value in tiles[0].items():
             self.assertAlmostEqual(tiles[1][name] / value, 1, delta=1e-6)
-        folder = self.run_case("hdf5", file, ["Output/Format=hdf5", *settings], launcher=LAUNCHER)
-        self.use_all(folder)
 
 
 class Directions(EveryTool):

@@ -25,7 +25,6 @@ from tools_case import COARSE, ROOT, SHARE, TALUS, Case, main, read_csv
 from talus_tools.compare.pair import on_cells_of
 from talus_tools.errors import UserError
 from talus_tools.esri import read_grid
-from talus_tools.hdf5 import h5py
 from talus_tools.parameters import Defaults, read_parameters
 from talus_tools.report.film import entries, painted, palette_image, rasters
 from talus_tools.report.places import routes_of, stations_of
@@ -102,20 +101,11 @@ class Report(ReportCase):
         factor = 1000 if rows["the rest"].split()[1] == "t" else 1
         self.assertLess(abs(rest * factor), 0.02 * float(gravity) * 1000)
         self.needs_nothing_else(page)
-        # By the command, again the same; and the same pictures from HDF5, where positions
-        # have the same single precision.
+        # By the command, again the same.
         result = self.tool("talus-report", folder)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         self.assertIn(f"Open {folder / 'report.html'} in a browser.", result.stdout)
         self.assertEqual(page.text, Page(folder).text)
-        other = self.report(self.slide("hdf5", "Output/Format=hdf5"))
-        if h5py:
-            self.assert_has(other, "soil", "motion")
-            self.assertEqual(page.pictures("soil"), other.pictures("soil"))
-            self.assertEqual(page.pictures("motion"), other.pictures("motion"))
-        else:
-            self.assert_has(other)
-            self.assertIn("h5py was not found", other.said("notices"))
 
     def needs_nothing_else(self, page):
         outside = re.sub(r"base64,[\w+/=]*", "", page.text)

@@ -98,6 +98,9 @@ namespace
     void
     load(const Tensor<1, dim> &gravity)
     {
+      for (unsigned int p = 0; p < points.size(); ++p)
+        materials.of_body(points.data(points.body)[p])
+          .initialize(points, p, p + 1);
       boundaries.prepare(grid);
       contact.prepare(grid);
       for (auto &acceleration : loads.acceleration_of_body)
@@ -116,10 +119,10 @@ namespace
     /// Search until the end. Returns whether equilibrium is found; residuals by
     /// run of Newton's method are in @p runs.
     bool
-    find(const StrainMeasure measure = StrainMeasure::small)
+    find()
     {
       runs.clear();
-      equilibrium.begin(equilibrium.options(measure));
+      equilibrium.begin(equilibrium.options());
       while (!equilibrium.is_balanced())
         {
           StaticProblem<dim> all = problem();
@@ -131,8 +134,6 @@ namespace
                                      return true;
                                    }))
             return false;
-          if (measure == StrainMeasure::large)
-            this->sort();
         }
       return true;
     }
@@ -146,7 +147,7 @@ namespace
 
     Materials<dim>                            materials;
     Obstacles<dim>                            obstacles;
-    FacetContact<dim>                         contact{obstacles, boundaries};
+    Contact<dim>                              contact{obstacles, boundaries};
     Equilibrium<dim>                          equilibrium;
     std::function<double(const Point<dim> &)> mudline; ///< see StaticProblem
     unsigned int                              n_before = 0;
@@ -164,10 +165,7 @@ namespace
     ShapeFunctionCache<dim> weights;
     InternalForces<dim>     internal_forces;
 
-    StepParts(Statics<dim>       &statics,
-              const StrainMeasure measure,
-              const double        mass_cutoff = 0.)
-      : internal_forces(measure)
+    StepParts(Statics<dim> &statics, const double mass_cutoff = 0.)
     {
       StaticProblem<dim> problem = statics.problem();
       sum_forces(problem);

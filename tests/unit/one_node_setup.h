@@ -2,7 +2,7 @@
 #ifndef one_node_setup_h
 #define one_node_setup_h
 
-#include <talus/contact/facet_contact.h>
+#include <talus/contact/contact.h>
 
 #include "core_setup.h"
 
@@ -128,10 +128,10 @@ namespace
       EXPECT_LT((of_wall - wall).norm(), 1e-13) << of_wall;
     }
 
-    Obstacles<dim>    obstacles{{}};
-    FacetContact<dim> contact{obstacles, this->boundaries};
-    unsigned int      node;
-    double            kinetic_energy_before, force_work;
+    Obstacles<dim> obstacles{{}};
+    Contact<dim>   contact{obstacles, this->boundaries};
+    unsigned int   node;
+    double         kinetic_energy_before, force_work;
   };
 
   const std::string bottom = "set Bottom = seabed";

@@ -14,7 +14,8 @@ namespace talus
 {
   // A law and a few points of it, driven by prescribed velocity gradients.
 
-  constexpr double pi = 3.14159265358979323846;
+  constexpr double pi  = 3.14159265358979323846;
+  constexpr double s_u = 2500.; ///< of the soil of the paper, Pa
 
 
 
@@ -45,6 +46,9 @@ namespace talus
       "\nend\nend\n");
     ParameterAcceptor::parse_all_parameters();
     law->check();
+    if (const auto *strength = law->undrained_strength())
+      law->check_strength(
+        {strength->number().value_or(s_u), strength->number().value_or(s_u)});
     return law;
   }
 
@@ -86,6 +90,7 @@ namespace talus
       if (law->is_hyperelastic())
         deformation = points.find("deformation gradient");
       points.append(n_points);
+      law->initialize(points, 0, n_points);
       workspace.reinit(0, n_points);
       for (unsigned int p = 0; p < n_points; ++p)
         {
@@ -316,8 +321,7 @@ namespace talus
 
 
   /// The soil of the paper, Pa.
-  const Elastic    paper{250e3, 0.49};
-  constexpr double s_u = 2500.;
+  const Elastic paper{250e3, 0.49};
 
 
 

@@ -53,13 +53,15 @@ namespace
 
 
 
-  /// Points with a column for the law, one for the factor of the strength, and
-  /// one for F of hyperelastic laws, in plain memory.
+  /// Points with columns for the plastic variable, the softening, the strength,
+  /// its factor, and F of hyperelastic laws, in plain memory.
   template <int dim>
   struct State
   {
     static constexpr unsigned int plastic_strain  = PointColumns<dim>::n_arrays;
-    static constexpr unsigned int strength_factor = plastic_strain + 1;
+    static constexpr unsigned int softening       = plastic_strain + 1;
+    static constexpr unsigned int strength        = softening + 1;
+    static constexpr unsigned int strength_factor = strength + 1;
     static constexpr unsigned int deformation     = strength_factor + 1;
     static constexpr unsigned int n_columns       = deformation + dim * dim;
 
@@ -96,6 +98,8 @@ namespace
           points.data(points.elastic_energy)[p]   = random(0., 10.);
           points.data(points.plastic_work)[p]     = random(0., 10.);
           points.data(plastic_strain)[p]  = p % 3 == 0 ? 0. : random(0., 2.);
+          points.data(softening)[p]       = random(0., 1.);
+          points.data(strength)[p]        = random(1e3, 3e3);
           points.data(strength_factor)[p] = random(0.5, 1.5);
           // Some rest, and some move fast.
           const double rate = p % 5 == 0 ? 0. : p % 7 == 0 ? 200. : 3.;
@@ -148,24 +152,32 @@ namespace
 
 
   /// The points that follow @p p, in @p n_registers of the type of @p number.
+  /// Stiffness and softening are columns, or belong to the strain.
   template <int dim, unsigned int n_registers = 1, typename FlowRule>
   auto
-  step_of(const FlowRule &flow_rule)
+  step_of(const FlowRule &flow_rule, const bool by_columns = false)
   {
     return [=](const auto         points,
                const auto         work,
                const unsigned int p,
                const auto         number) {
-      using Number      = std::decay_t<decltype(number)>;
-      const auto factor = [&](const unsigned int p, const auto number) {
-        return load<std::decay_t<decltype(number)>>(
-          points.data(State<dim>::strength_factor) + p);
-      };
-      return update_rate_law_points<dim, Number, n_registers>(
+      using Soil = State<dim>;
+      StrengthOfPoints strength;
+      strength.strength.column  = points.data(Soil::strength);
+      strength.factor.column    = points.data(Soil::strength_factor);
+      strength.softening_column = Soil::plastic_strain;
+      if (by_columns)
+        {
+          strength.stiffness.column = points.data(Soil::strength_factor);
+          strength.cell_size.column = points.data(points.reference_volume);
+          strength.softening_column = Soil::softening;
+        }
+      return update_rate_law_points<dim,
+                                    std::decay_t<decltype(number)>,
+                                    n_registers>(
         RateLawStep<dim, FlowRule>{
-          points, work, State<dim>::plastic_strain, dt, moduli, flow_rule},
-        p,
-        factor);
+          points, work, Soil::plastic_strain, dt, moduli, flow_rule, strength},
+        p);
     };
   }
 
@@ -182,12 +194,16 @@ namespace
   TEST(Width, VonMises)
   {
     for (const double hardening : {0., 2e3, -2e3})
-      {
-        SCOPED_TRACE(hardening);
-        const VonMisesFlow flow_rule = {moduli.mu, 4e3, hardening, 1e3};
-        expect_same<2>(step_of<2>(flow_rule));
-        expect_same<3>(step_of<3>(flow_rule));
-      }
+      for (const bool by_columns : {false, true})
+        {
+          SCOPED_TRACE(hardening);
+          const VonMisesFlow flow_rule = {moduli.mu,
+                                          hardening,
+                                          1e3,
+                                          by_columns};
+          expect_same<2>(step_of<2>(flow_rule, by_columns));
+          expect_same<3>(step_of<3>(flow_rule, by_columns));
+        }
   }
 
 
@@ -197,16 +213,18 @@ namespace
   void
   expect_same_herschel_bulkley(const double exponent, const double decay)
   {
-    const bool                is_remoulded = decay > 0.;
-    const HerschelBulkleyFlow flow_rule    = {
-         {is_remoulded ? 3e3 : 1e3, is_remoulded ? 1. / 3. : 1., 1.},
-         {moduli.mu, 50., exponent, decay, dt}};
-    const auto in_one = step_of<dim>(flow_rule);
-    expect_same<dim>(in_one);
-    EXPECT_TRUE(same_bits(after<dim, 1>(in_one),
-                          after<dim, simd_width>(step_of<dim, 4>(flow_rule),
-                                                 4 * simd_width)))
-      << dim << "-D, four registers";
+    const HerschelBulkleyFlow flow_rule = {
+      decay > 0. ? 1. / 3. : 1., {moduli.mu, 50., exponent, decay, dt}};
+    for (const bool by_columns : {false, true})
+      {
+        const auto in_one = step_of<dim>(flow_rule, by_columns);
+        expect_same<dim>(in_one);
+        EXPECT_TRUE(
+          same_bits(after<dim, 1>(in_one),
+                    after<dim, simd_width>(
+                      step_of<dim, 4>(flow_rule, by_columns), 4 * simd_width)))
+          << dim << "-D, four registers";
+      }
   }
 
 

@@ -64,6 +64,13 @@ namespace talus
     std::vector<unsigned int>
     repartition(Grid<dim> &grid, Points<dim> &points);
 
+    /// Do the same with given weights, one per owned cell [-], such as the
+    /// weights of a checkpoint.
+    std::vector<unsigned int>
+    repartition(Grid<dim>                 &grid,
+                Points<dim>               &points,
+                const std::vector<double> &weights);
+
     /// Weights of the cells of this rank at the last repartition, from which a
     /// resumed run repeats the partition. Empty before the first repartition
     /// and on one rank.
@@ -71,14 +78,6 @@ namespace talus
     weights() const
     {
       return weights_;
-    }
-
-    /// Restore the weights after a mesh was loaded and partitioned by
-    /// @p weights.
-    void
-    set_weights(const std::vector<double> &weights)
-    {
-      weights_ = weights;
     }
 
     /// Add the imbalance reached, on which the next repartition depends, to the

@@ -42,11 +42,23 @@ namespace talus
 
 
 
+    /// Exponential of a register. Not inlined: compilers contract the inlined
+    /// copies of the formula differently, and one function has one rounding for
+    /// Simd of all widths.
+    template <typename Batch>
+    [[gnu::noinline]] Batch
+    exp_of_register(const Batch x)
+    {
+      return xsimd::exp(x);
+    }
+
+
+
     template <unsigned int n>
     TALUS_ALWAYS_INLINE Simd<n>
                         exp(const Simd<n> &x)
     {
-      return by_xsimd(x, [](const auto &v) { return xsimd::exp(v); });
+      return by_xsimd(x, [](const auto &v) { return exp_of_register(v); });
     }
 
 

@@ -44,7 +44,7 @@ namespace talus
   /// with `velocity` prescribe a component, the face normal to the component
   /// decides, otherwise the first face. Rollers then hold their normal
   /// components, because nothing may pass a wall, and `fixed` holds all
-  /// components. The contact with a seabed belongs to FacetContact, which
+  /// components. The contact with a seabed belongs to Contact, which
   /// changes only components that no wall prescribes.
   ///
   /// A new condition is a class derived from BoundaryCondition and a line in
@@ -78,16 +78,11 @@ namespace talus
                     state.constants.mass_cutoff);
     }
 
+    /// Apply the walls to the velocities of the active nodes on the faces.
+    /// Velocities belong to the half step, t + dt/2. Records energies and
+    /// impulses of the boundaries, including the tractions of add_tractions().
     void
-    correct_velocities(State<dim> &state) override
-    {
-      apply(state.nodes,
-            state.grid,
-            state.time,
-            state.time_step,
-            state.constants.mass_cutoff)
-        .record(state.accounts);
-    }
+    correct_velocities(State<dim> &state) override;
 
     /// Sum the reactions of the step over the ranks.
     void
@@ -170,7 +165,7 @@ namespace talus
 
     /// Add the tractions at time @p t, s, to the forces of the active nodes on
     /// the faces, before the momentum update. Nodes with a mass of at most
-    /// @p mass_cutoff, kg, are left out, also in apply().
+    /// @p mass_cutoff, kg, are left out, also in correct_velocities().
     void
     add_tractions(NodalFields<dim> &nodes,
                   const Grid<dim>  &grid,
@@ -182,46 +177,18 @@ namespace talus
     const dealii::Point<dim> &
     place_of(unsigned int node) const;
 
-    /// Give a node on @p faces the velocity prescribed by walls, and record the
-    /// impulse.
-    /// @param nodes fields of the nodes
-    /// @param faces faces of the node, see Grid::faces_of_node
-    /// @param node index of the node
-    /// @param t time at the beginning of the step, s
-    /// @param dt time step, s
-    /// @param work sum of energies and impulses to add to
+    /// Give a node on a face of the mesh the velocity prescribed by walls, and
+    /// add energy and impulse to @p work.
     void
-    impose_walls(NodalFields<dim>  &nodes,
-                 unsigned char      faces,
-                 unsigned int       node,
-                 double             t,
-                 double             dt,
-                 BoundaryWork<dim> &work);
+    impose_walls(State<dim> &state, unsigned int node, BoundaryWork<dim> &work);
 
-    /// Record the impulse @p impulse, N s, of walls on the soil at a node on
-    /// @p faces, in components held by the walls.
+    /// Record the impulse @p impulse, N s, of walls on the soil at a node, in
+    /// components held by the walls.
     void
-    record_walls(const NodalFields<dim>       &nodes,
-                 unsigned char                 faces,
+    record_walls(const State<dim>             &state,
                  unsigned int                  node,
                  const dealii::Tensor<1, dim> &impulse,
                  BoundaryWork<dim>            &work);
-
-    /// Apply the walls to the velocities of the active nodes on the faces,
-    /// after the momentum update. Velocities belong to the half step, t + dt/2.
-    /// Return energies and impulses of the boundaries, including the tractions
-    /// of add_tractions().
-    /// @param nodes fields of the nodes
-    /// @param grid background grid
-    /// @param t time at the beginning of the step, s
-    /// @param dt time step, s
-    /// @param mass_cutoff maximum mass of the nodes that are left out, kg
-    BoundaryWork<dim>
-    apply(NodalFields<dim> &nodes,
-          const Grid<dim>  &grid,
-          double            t,
-          double            dt,
-          double            mass_cutoff);
 
     /// Forces on each face with a condition, if the parameter `Write forces` is
     /// set.

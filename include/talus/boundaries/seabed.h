@@ -7,7 +7,7 @@
 namespace talus
 {
   /// Parameters of the seabed, one surface on all faces of the mesh with the
-  /// condition `seabed`. FacetContact applies the contact at the nodes.
+  /// condition `seabed`. Contact applies the contact at the nodes.
   template <int dim>
   class Seabed : public Bed<dim>
   {

@@ -17,10 +17,10 @@
 namespace talus
 {
   /// Writes checkpoints, from which a run continues with bit-identical results:
-  /// a folder `checkpoints/STEP` in the output folder, with points and all
-  /// other state in `state.h5` and the mesh in files of p4est. Writing does not
-  /// change the run. A checkpoint gets its name only after it is complete and
-  /// on disk; the newest two are kept.
+  /// a folder `checkpoints/STEP` in the output folder, with mesh and points in
+  /// files of deal.II and p4est, and all other state in `state.h5`. Writing
+  /// does not change the run. A checkpoint gets its name only after it is
+  /// complete and on disk; the newest two are kept.
   template <int dim>
   class Checkpoint : public dealii::ParameterAcceptor
   {
@@ -69,9 +69,10 @@ namespace talus
       return at_the_end_;
     }
 
-    /// Content of a checkpoint besides the mesh.
+    /// Content of a checkpoint.
     struct Content
     {
+      Grid<dim>         &grid;   ///< not changed
       const Points<dim> &points; ///< sorted
       /// Weight of each owned cell at the last repartition.
       const std::vector<double> &cell_weights;
@@ -86,17 +87,20 @@ namespace talus
     /// return the path. Throws ExcUser if writing fails; earlier checkpoints
     /// remain. Collective.
     std::filesystem::path
-    write(const Content &content, const Grid<dim> &grid);
+    write(const Content &content);
 
   private:
     using Clock = std::chrono::steady_clock;
 
     void
+    write_mesh(const std::filesystem::path &folder,
+               const Content               &content) const;
+    void
     write_state(const std::filesystem::path &folder,
                 const Content               &content) const;
     void
-    write_mesh(const std::filesystem::path &folder,
-               const Grid<dim>             &grid) const;
+    write_file(const std::filesystem::path &path,
+               const std::string           &bytes) const;
     /// Throw ExcUser on all ranks if @p error is not empty on any rank.
     void
     check_on_all_ranks(const std::string &error) const;

@@ -3,33 +3,35 @@
 #define talus_checkpoint_checkpoint_content_h
 
 #include <talus/base/state_list.h>
-#include <talus/io/hdf5_input_file.h>
-#include <talus/io/hdf5_output_file.h>
+#include <talus/io/hdf5_image.h>
 #include <talus/points/points.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 namespace talus
 {
-  // Content of a checkpoint: the mesh in files of p4est, everything else in the
-  // file `state.h5`; see doc/output.md.
+  // Content of a checkpoint: the mesh with the points of the cells in files of
+  // deal.II and p4est, everything else in the file `state.h5`, and a list of
+  // checksums; see doc/output.md.
 
-  constexpr const char *state_file_name = "state.h5";
-  constexpr const char *mesh_file_name  = "mesh";
+  constexpr const char *state_file_name     = "state.h5";
+  constexpr const char *mesh_file_name      = "mesh";
+  constexpr const char *points_file_name    = "mesh_variable.data";
+  constexpr const char *checksums_file_name = "checksums";
 
   /// Version of the file format. Increase when old and new versions of talus
   /// cannot read each other's files.
-  constexpr std::uint64_t checkpoint_format = 11;
+  constexpr unsigned int checkpoint_format = 11;
 
-  /// Summary of a checkpoint: attributes of the file.
+  /// Summary of a checkpoint.
   struct CheckpointHead
   {
-    std::uint64_t format    = checkpoint_format;
-    std::uint64_t dimension = 0;
-    std::uint64_t n_ranks   = 0;
-    std::uint64_t step      = 0;
+    unsigned int  dimension = 0;
+    unsigned int  n_ranks   = 0;
+    unsigned long step      = 0;
     double        time      = 0; ///< s
     double        end_time  = 0; ///< planned end of the run, s
     std::string   version;       ///< version of talus
@@ -37,65 +39,58 @@ namespace talus
   };
 
   void
-  save_head(Hdf5OutputFile &file, const CheckpointHead &head);
+  save_head(Hdf5Image &file, const CheckpointHead &head);
 
-  /// Load the summary. If the format differs, all other fields are undefined.
   CheckpointHead
-  load_head(Hdf5InputFile &file);
+  load_head(const Hdf5Image &file);
 
 
 
-  /// Save the sorted points and, for each owned cell, number of points and
-  /// weight. Rows are in the order of the cells, ranks in ascending order.
-  /// Collective.
-  ///
-  /// @param cell_weights weights of the owned cells at the last repartition
+  /// Save the names and units of the columns of the points.
   template <int dim>
   void
-  save_points(Hdf5OutputFile            &file,
-              const Points<dim>         &points,
-              const std::vector<double> &cell_weights);
+  save_columns(Hdf5Image &file, const Points<dim> &points);
 
-  /// Load the weights of the @p n_cells cells owned by this rank.
-  std::vector<double>
-  load_cell_weights(Hdf5InputFile &file, unsigned int n_cells);
-
-  /// Load the points of the cells owned by this rank in their saved order,
-  /// which is part of the state. Throws ExcUser if the columns in the file
-  /// differ. Collective.
-  ///
-  /// @param n_cells number of owned cells
-  /// @param points must be empty and have all columns
-  /// @return cell of each point
+  /// Throw ExcUser if the saved columns differ from the columns of @p points.
   template <int dim>
-  std::vector<unsigned int>
-  load_points(Hdf5InputFile &file, unsigned int n_cells, Points<dim> &points);
-
-
-
-  /// Save numbers of every rank, texts and tables. Collective.
   void
-  save_state(Hdf5OutputFile &file, const StateList &list);
+  check_columns(const Hdf5Image &file, const Points<dim> &points);
+
+
+
+  /// Save numbers of every rank, texts and tables. Afterwards @p file is
+  /// complete on the first rank. Collective.
+  void
+  save_state(Hdf5Image &file, const StateList &list, MPI_Comm communicator);
 
   /// Load the values saved by save_state(). Throws ExcUser if a value is
-  /// missing. Collective.
+  /// missing.
   void
-  load_state(Hdf5InputFile &file, const StateList &list);
+  load_state(const Hdf5Image &file,
+             const StateList &list,
+             MPI_Comm         communicator);
+
+  /// Open the state file of a checkpoint. Collective.
+  Hdf5Image
+  open_state(const std::filesystem::path &checkpoint, MPI_Comm communicator);
 
 
 
-  /// Whether deal.II uses @p name for a file of the mesh.
+  /// Whether @p name is a file of a checkpoint.
   bool
-  is_mesh_file(const std::string &name);
+  is_checkpoint_file(const std::string &name);
 
-  /// Names and checksums of the mesh files in a checkpoint, one per line. Call
-  /// on one rank only.
+  /// Content of the file `checksums` for a checkpoint: the format and a
+  /// checksum of each other file. Collective.
   std::string
-  mesh_checksums(const std::filesystem::path &checkpoint);
+  list_checksums(const std::filesystem::path &checkpoint,
+                 MPI_Comm                     communicator);
 
-  /// Throw ExcUser if reading the file failed.
-  void
-  check_read(const Hdf5InputFile &file);
+  /// Return a description of the damage of a checkpoint: a missing or changed
+  /// file; empty if there is no damage. Throws ExcUser if the checkpoint has
+  /// another format. Collective.
+  std::string
+  find_damage(const std::filesystem::path &checkpoint, MPI_Comm communicator);
 } // namespace talus
 
 #endif

@@ -3,8 +3,8 @@
 #define talus_contact_body_coupling_h
 
 #include <talus/boundaries/reaction.h>
-#include <talus/contact/facet_constraints.h>
-#include <talus/contact/facet_impulses.h>
+#include <talus/contact/contact_constraints.h>
+#include <talus/contact/contact_impulses.h>
 #include <talus/contact/facets.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -26,10 +26,10 @@ namespace talus
   class BodyCoupling
   {
   public:
-    BodyCoupling(Obstacles<dim>              &obstacles,
-                 const Facets<dim>           &facets,
-                 const FacetConstraints<dim> &constraints,
-                 const FacetImpulses<dim>    &impulses)
+    BodyCoupling(Obstacles<dim>                &obstacles,
+                 const Facets<dim>             &facets,
+                 const ContactConstraints<dim> &constraints,
+                 const ContactImpulses<dim>    &impulses)
       : obstacles_(obstacles)
       , facets_(facets)
       , constraints_(constraints)
@@ -37,7 +37,7 @@ namespace talus
     {}
 
     /// Begin a step: evaluate the forces on the bodies and list the loaded
-    /// facets of each body. Call after FacetConstraints::find().
+    /// facets of each body. Call after ContactConstraints::find().
     void
     begin_step(const State<dim> &state);
 
@@ -97,10 +97,10 @@ namespace talus
     static void
     improve(const Response &response, RigidBody<dim> &body, Iterate &iterate);
 
-    Obstacles<dim>              &obstacles_;
-    const Facets<dim>           &facets_;
-    const FacetConstraints<dim> &constraints_;
-    const FacetImpulses<dim>    &impulses_;
+    Obstacles<dim>                &obstacles_;
+    const Facets<dim>             &facets_;
+    const ContactConstraints<dim> &constraints_;
+    const ContactImpulses<dim>    &impulses_;
 
     // Data of one step, by entry of Obstacles::bodies()
     std::vector<std::vector<unsigned int>> facets_of_body_; ///< loaded facets

@@ -66,9 +66,10 @@ namespace talus
     }
 
     /// Apply the added impulses to the velocities. Components held by walls do
-    /// not change: the wall bears the impulse. Collective.
+    /// not change: the wall bears the impulse. Without @p for_ghosts ghosts
+    /// keep the previous velocities. Collective.
     void
-    update_velocities();
+    update_velocities(bool for_ghosts = true);
 
     /// Copy the velocities to the nodes of @p state.
     void

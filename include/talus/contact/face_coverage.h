@@ -2,6 +2,7 @@
 #ifndef talus_contact_face_coverage_h
 #define talus_contact_face_coverage_h
 
+#include <talus/contact/contact_area.h>
 #include <talus/grid/nodal_exchange.h>
 #include <talus/state/state.h>
 #include <talus/transfer/weights.h>
@@ -28,21 +29,18 @@ namespace talus
     void
     find(const State<dim> &state);
 
-    /// Covered area of @p face around an owned node on the face, m^(dim-1); may
-    /// slightly exceed the area of the face there.
-    double
-    area(const unsigned int face, const unsigned int node) const
-    {
-      return areas_[n_faces_ * node + slot_[face]];
-    }
-
     /// Share of @p face in contact with soil [-] around an owned node on the
-    /// face with the volume fraction @p f of soil [-].
+    /// face, which stands for the area @p whole, m^(dim-1), of the face and has
+    /// the volume fraction @p f of soil [-].
     double
-    share(const Grid<dim> &grid,
-          unsigned int     face,
-          unsigned int     node,
-          double           f) const;
+    share(const unsigned int face,
+          const unsigned int node,
+          const double       whole,
+          const double       f) const
+    {
+      const double covered = areas_[n_faces_ * node + slot_[face]];
+      return f > 0 ? share_in_contact(std::min(1., covered / whole), f) : 0.;
+    }
 
     /// Call action(face, node) for the owned nodes on the faces.
     template <typename Action>

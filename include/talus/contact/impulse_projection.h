@@ -2,8 +2,8 @@
 #ifndef talus_contact_impulse_projection_h
 #define talus_contact_impulse_projection_h
 
-#include <talus/contact/facet_constraints.h>
-#include <talus/contact/facet_impulses.h>
+#include <talus/contact/contact_constraints.h>
+#include <talus/contact/contact_impulses.h>
 
 namespace talus
 {
@@ -11,9 +11,9 @@ namespace talus
   /// normal impulse of the current step, N s.
   template <int dim>
   double
-  mean_normal(const FacetImpulse<dim>    &impulse,
-              const FacetConstraint<dim> &constraint,
-              const double                newest)
+  mean_normal(const ContactImpulse<dim>    &impulse,
+              const ContactConstraint<dim> &constraint,
+              const double                  newest)
   {
     return impulse.mean_normal +
            constraint.averaging_weight * (newest - impulse.mean_normal);
@@ -56,17 +56,17 @@ namespace talus
   /// @param dt time step, s
   template <int dim>
   ProjectedImpulse<dim>
-  projected_impulse(const FacetConstraints<dim>  &constraints,
-                    const unsigned int            c,
-                    const dealii::Tensor<1, dim> &normal,
-                    const FacetImpulse<dim>      &impulse,
-                    const dealii::Tensor<1, dim> &u,
-                    const double                  dt)
+  projected_impulse(const ContactConstraints<dim> &constraints,
+                    const unsigned int             c,
+                    const dealii::Tensor<1, dim>  &normal,
+                    const ContactImpulse<dim>     &impulse,
+                    const dealii::Tensor<1, dim>  &u,
+                    const double                   dt)
   {
-    const FacetConstraint<dim>  &constraint = constraints[c];
-    const double                 u_n        = u * normal;
-    const dealii::Tensor<1, dim> u_t        = u - u_n * normal;
-    ProjectedImpulse<dim>        result;
+    const ContactConstraint<dim> &constraint = constraints[c];
+    const double                  u_n        = u * normal;
+    const dealii::Tensor<1, dim>  u_t        = u - u_n * normal;
+    ProjectedImpulse<dim>         result;
     result.normal = std::max(0.,
                              impulse.normal - constraint.normal_mass *
                                                 (constraint.gap / dt + u_n));

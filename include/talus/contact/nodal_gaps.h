@@ -71,6 +71,9 @@ namespace talus
       std::function<std::pair<const SurfaceTable<dim> *, unsigned int>(
         unsigned int)>;
 
+    /// Volume fraction of an owned node [-].
+    using VolumeFraction = std::function<double(unsigned int)>;
+
     /// Gap at a node which no box reaches.
     static constexpr double none = std::numeric_limits<double>::max();
 
@@ -110,11 +113,21 @@ namespace talus
     /// Compute the gaps of all @p pairs with a ghost node or a node with mass.
     /// @p nearness, by cell: 2 at a surface (examined first), 1 if points may
     /// reach a node of @p pairs; points in other cells are skipped. The search
-    /// at a node stops once all gaps are within the dead band. Collective.
+    /// at a node stops once all gaps are within the dead band. The volume
+    /// fractions of the owned nodes travel with the gaps. Collective.
     void
     find(const State<dim>                  &state,
          const std::vector<NodeAndSurface> &pairs,
-         const std::vector<unsigned char>  &nearness);
+         const std::vector<unsigned char>  &nearness,
+         const VolumeFraction              &volume_fraction = {});
+
+    /// Volume fraction of a node of the last pairs [-], also of a ghost; 0
+    /// without soil.
+    double
+    volume_fraction(const unsigned int node) const
+    {
+      return fractions_[node];
+    }
 
     /// Return the clearance between the soil at @p node and surface @p k, m:
     /// the gap less a dead band of a twentieth of @p cell_size, m; at least 0.
@@ -126,12 +139,18 @@ namespace talus
          const double       cell_size) const
     {
       return std::max(0.,
-                      gaps_[n_slots_ * node + slots_[k]] -
+                      records_[width_ * node + slots_[k]] -
                         dead_band * cell_size);
     }
 
   private:
     static constexpr double dead_band = 0.05; // cells
+
+    double *
+    record(const unsigned int node)
+    {
+      return records_.data() + width_ * node;
+    }
 
     dealii::Tensor<1, dim>
     half_lengths(const State<dim> &state,
@@ -165,8 +184,10 @@ namespace talus
     PlaneOfCell                plane_of_cell_;
     TableOfCell                table_of_cell_;
     std::size_t                n_slots_ = 0;
-    std::vector<double>        gaps_;    ///< by node and slot, m
-    std::vector<unsigned char> is_open_; ///< by node, used in find()
+    std::size_t                width_   = 0;
+    std::vector<double>        records_;   ///< by node: gaps, m, fraction [-]
+    std::vector<double>        fractions_; ///< by node [-]
+    std::vector<unsigned char> is_open_;   ///< by node, used in find()
     std::size_t                n_open_ = 0;
     std::vector<unsigned int>  near_cell_; ///< surfaces near the current cell
     std::vector<double>        of_point_;  ///< gaps of a point, by slot, m

@@ -2,7 +2,7 @@
 #ifndef talus_contact_soil_at_places_h
 #define talus_contact_soil_at_places_h
 
-#include <talus/boundaries/contact_area.h>
+#include <talus/contact/contact_area.h>
 #include <talus/contact/face_coverage.h>
 #include <talus/contact/face_gaps.h>
 #include <talus/contact/face_nodes.h>
@@ -40,19 +40,12 @@ namespace talus
     void
     find(const State<dim> &state);
 
-    /// Soil on the seabeds.
-    const FaceCoverage<dim> &
-    at_faces() const
-    {
-      return at_faces_;
-    }
-
     /// Volume of the soil at a node of a facet divided by the volume outside of
     /// obstacles [-], at most 1; also for ghosts.
     double
     volume_fraction(const unsigned int node) const
     {
-      return fractions_of_nodes_[node];
+      return gaps_.volume_fraction(node);
     }
 
     /// Mean of volume_fraction() at facet @p facet of Facets::owned() [-].
@@ -76,9 +69,8 @@ namespace talus
     area_in_contact(const NodalFields<dim> &nodes,
                     const FaceNode<dim>    &at) const
     {
-      const double covered = at_faces_.area(at.face, at.node) / at.area;
-      const double f       = std::min(1., nodes.volume(at.node) / at.volume);
-      return at.area * share_in_contact(std::min(1., covered), f);
+      const double f = std::min(1., nodes.volume(at.node) / at.volume);
+      return at.area * at_faces_.share(at.face, at.node, at.area, f);
     }
 
     /// Clearance between the soil at a node and a seabed face, m: distance in
@@ -109,8 +101,6 @@ namespace talus
     void
     find_gaps(const State<dim> &state);
     void
-    find_fractions_of_nodes(const State<dim> &state);
-    void
     find_fractions(const std::vector<ContactFacet<dim>> &facets,
                    std::vector<double>                  &fractions) const;
 
@@ -121,8 +111,6 @@ namespace talus
     SurfaceTables<dim>    tables_{obstacles_};
     NodalGaps<dim>        gaps_; ///< surfaces: the obstacles
     FacetCoverage<dim>    coverage_{obstacles_, facets_};
-    NodalExchange<dim>    exchange_;
-    std::vector<double>   fractions_of_nodes_;  ///< by node [-]
     std::vector<double>   fractions_;           ///< by owned facet [-]
     std::vector<double>   fractions_of_ghosts_; ///< by ghost facet [-]
   };

@@ -47,32 +47,26 @@ namespace talus
 
     Equilibrium();
 
-    StrainMeasure
-    measure() const
+    /// Throw ExcUser if the stress of a body follows from its deformation.
+    static void
+    check(const Materials<dim>           &materials,
+          const std::vector<std::string> &names_of_bodies);
+
+    /// Options of the search as given by the parameters.
+    const StaticOptions &
+    options() const
     {
-      return measure_ == "small" ? StrainMeasure::small : StrainMeasure::large;
+      return parameters_;
     }
 
-    /// Throw ExcUser if the law of a body cannot be used with the strain
-    /// measure.
-    void
-    check(const Materials<dim>           &materials,
-          const std::vector<std::string> &names_of_bodies) const;
-
-    /// Options of the search as given by the parameters, with @p measure.
-    StaticOptions
-    options(StrainMeasure measure) const;
-
-    /// Start a new search from zero load, whatever came before. At small strain
-    /// the soil does not move.
+    /// Start a new search from zero load, whatever came before.
     void
     begin(const StaticOptions &options);
 
-    /// Take one load step. At large strain, points may afterwards be in
-    /// different cells. Returns false if the step fails at the smallest length
-    /// or if balance is not reached in the largest number of steps; failure()
-    /// then gives the reason. Also returns false if @p observe stops the
-    /// search; see is_stopped(). Collective.
+    /// Take one load step. Returns false if the step fails at the smallest
+    /// length or if balance is not reached in the largest number of steps;
+    /// failure() then gives the reason. Also returns false if @p observe stops
+    /// the search; see is_stopped(). Collective.
     bool
     advance(StaticProblem<dim> &problem, const Observer &observe);
 
@@ -139,6 +133,8 @@ namespace talus
     }
 
   private:
+    void
+    add_parameters_of_newton();
     StaticOptions
     options_of_step(bool has_obstacles) const;
     bool
@@ -151,7 +147,6 @@ namespace talus
     take_step(StaticProblem<dim> &problem, const Observer &observe);
 
     // Parameters
-    std::string   measure_          = "small";
     unsigned int  largest_settling_ = 100;
     StaticOptions parameters_;
     LinearSolver  linear_solver_;

@@ -21,15 +21,11 @@ namespace talus
   /// does work on theta_c is averaged, too. Forces and matrix are the first and
   /// second derivative of the same work, so the matrix of elastic soil is
   /// symmetric. With volumes V and gradients of the start of the step, the
-  /// nominal stress P does the work V P : H on the displacement gradient H.
+  /// stress P does the work V P : H on the displacement gradient H.
   template <int dim>
   class InternalForces
   {
   public:
-    InternalForces(const StrainMeasure measure)
-      : measure_(measure)
-    {}
-
     /// Compute the displacement gradients at the points from the nodal
     /// displacements @p u, m, with the mean of B-bar, and store them in the
     /// workspace.
@@ -40,9 +36,7 @@ namespace talus
 
     /// Evaluate stresses and tangents of the points on this rank at the
     /// displacements @p u, m, and add the nodal forces, N, to @p forces.
-    /// Returns false, and adds nothing, if a point on this rank would be
-    /// inverted.
-    bool
+    void
     evaluate(StaticProblem<dim>            &problem,
              const ShapeFunctionCache<dim> &weights,
              const std::vector<double>     &u,
@@ -94,7 +88,6 @@ namespace talus
               unsigned int              n,
               Scratch                  &scratch) const;
 
-    StrainMeasure                   measure_;
     std::vector<StressTangent<dim>> linearizations_;
     std::vector<double>             volumes_; ///< at the start of the step
     std::vector<double> volumes_of_mean_;     ///< volumes_, 0 without B-bar

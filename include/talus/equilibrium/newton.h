@@ -57,8 +57,7 @@ namespace talus
     Outcome
     solve(StaticProblem<dim> &problem, double share, const Observer &observe);
 
-    /// Apply the solution to the state of the points; at large strain the
-    /// points move.
+    /// Apply the solution to stress and internal variables of the points.
     void
     commit(StaticProblem<dim> &problem)
     {

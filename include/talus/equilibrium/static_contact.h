@@ -42,7 +42,7 @@ namespace talus
     double gap       = 0; ///< at the start of the step, m
     double opened    = 0; ///< normal displacement since the points were
                           ///< last moved, m
-    unsigned int           number = 0; ///< number in FacetConstraints
+    unsigned int           number = 0; ///< number in ContactConstraints
     CoulombLimit           limit;      ///< limit of friction at the start
     ContactState           state = ContactState::sticks;
     dealii::Tensor<1, dim> given, force; ///< on the soil, N
@@ -221,9 +221,7 @@ namespace talus
     /// Store the solution with the displacements @p u, m: the slip at the
     /// places of seabed and obstacles, and the forces of the facets.
     void
-    commit(const StaticProblem<dim>  &problem,
-           const std::vector<double> &u,
-           StrainMeasure              measure);
+    commit(const StaticProblem<dim> &problem, const std::vector<double> &u);
 
     /// Add the table of the places to the state. Without @p is_needed the table
     /// is empty.

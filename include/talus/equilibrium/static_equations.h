@@ -64,9 +64,8 @@ namespace talus
     /// Compute the residual. Collective.
     /// @param problem Soil, loads and boundaries.
     /// @param u Displacements, m; solve_tangent() uses the tangent at @p u.
-    /// @param residual Residual, N; unchanged on failure.
-    /// @return False if a point on any rank would be inverted.
-    bool
+    /// @param residual Residual, N.
+    void
     compute_residual(StaticProblem<dim>        &problem,
                      const std::vector<double> &u,
                      std::vector<double>       &residual);
@@ -101,8 +100,8 @@ namespace talus
       return contact_.stick_again(unknowns_, direction);
     }
 
-    /// Apply the displacements @p u, m, to the state of the points; at large
-    /// strain the points move.
+    /// Apply the displacements @p u, m, to stress and internal variables of the
+    /// points.
     void
     commit(StaticProblem<dim> &problem, const std::vector<double> &u);
 
@@ -161,7 +160,7 @@ namespace talus
     bool
     is_symmetric() const
     {
-      return measure_ == StrainMeasure::small && contact_.is_symmetric();
+      return contact_.is_symmetric();
     }
 
   private:
@@ -174,17 +173,16 @@ namespace talus
     RigidModes
     free_rigid_modes() const;
 
-    StrainMeasure           measure_ = StrainMeasure::small;
     Unknowns<dim>           unknowns_;
     ShapeFunctionCache<dim> weights_;
-    InternalForces<dim>     internal_forces_{StrainMeasure::small};
+    InternalForces<dim>     internal_forces_;
     GhostStabilization<dim> ghost_;
     StaticContact<dim>      contact_;
     WellBalancedLoad<dim>   well_balanced_;
     bool                    is_well_balanced_ = false;
 
     StiffnessMatrix<dim>            matrix_;
-    LuFactorization                 factorization_;
+    LuFactorization                 factorization_{dim};
     std::vector<dealii::Point<dim>> places_; ///< places of the owned nodes, m
     dealii::Point<dim>              centre_; ///< centre of rigid rotations, m
 

@@ -3,7 +3,7 @@
 #define talus_equilibrium_static_problem_h
 
 #include <talus/boundaries/boundaries.h>
-#include <talus/contact/facet_contact.h>
+#include <talus/contact/contact.h>
 #include <talus/materials/materials.h>
 #include <talus/state/state.h>
 #include <talus/transfer/transfer.h>
@@ -23,7 +23,7 @@ namespace talus
     const Materials<dim> &materials;
     Boundaries<dim>      &boundaries;
     const Loads<dim>     &loads;
-    FacetContact<dim>    &contact; ///< with obstacles
+    Contact<dim>         &contact; ///< with obstacles
     /// Height of the mudline above or below a place, m; not a number where the
     /// vertical meets no soil. Empty if the mudline is unknown.
     std::function<double(const dealii::Point<dim> &)> mudline = {};
@@ -35,12 +35,10 @@ namespace talus
   /// parameters of section Equilibrium; strength reduction changes them.
   struct StaticOptions
   {
-    StrainMeasure measure       = StrainMeasure::small;
-    unsigned int  n_load_steps  = 1;      ///< number of equal load steps
-    double        smallest_step = 1e-3;   ///< smallest fraction of the load [-]
-    double        allowed_imbalance = 0.; ///< limit for soil in balance [-]
-    /// Whether to subtract the error of the weight (WellBalancedLoad); ignored
-    /// at large strain.
+    unsigned int n_load_steps  = 1;    ///< number of equal load steps
+    double       smallest_step = 1e-3; ///< smallest fraction of the load [-]
+    double       allowed_imbalance = 1e-6; ///< limit for soil in balance [-]
+    /// Whether to subtract the error of the weight (WellBalancedLoad).
     bool is_well_balanced = true;
     /// Number of load steps that may fail and be cut [-].
     unsigned int max_failures = -1;

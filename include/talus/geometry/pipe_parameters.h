@@ -3,11 +3,11 @@
 #define talus_geometry_pipe_parameters_h
 
 #include <talus/base/place_coordinates.h>
-#include <talus/geometry/section_line.h>
 #include <talus/geometry/shape.h>
 #include <talus/geometry/surface.h>
 
 #include <deal.II/base/parameter_acceptor.h>
+#include <deal.II/base/point.h>
 
 #include <memory>
 #include <string>
@@ -15,6 +15,26 @@
 
 namespace talus
 {
+  /// Point at which a route crosses the line of a section in plan.
+  struct SectionCrossing
+  {
+    double length; ///< along the section, from its first corner, m
+    double sine;   ///< sine of the angle between route and section, positive
+                   ///< [-]
+  };
+
+
+
+  /// Return all places, in the order of the route, where a route crosses the
+  /// line of a section. The section extends straight beyond both ends. Both
+  /// lines are given by at least two corners in the same plan, m; neighbours
+  /// differ.
+  std::vector<SectionCrossing>
+  find_crossings(const std::vector<dealii::Point<2>> &section,
+                 const std::vector<dealii::Point<2>> &route);
+
+
+
   /// Entries of a shape for a pipe: route in plan and height of the axis above
   /// a surface. In 3-D the shape follows the route; in 2-D the shape is the
   /// disc where the route crosses the section.

@@ -4,16 +4,14 @@
 
 #include <talus/grid/node_numbering.h>
 
-#include <deal.II/base/aligned_vector.h>
-#include <deal.II/base/partitioner.h>
-
-#include <memory>
 #include <vector>
 
 namespace talus
 {
   /// Exchanges records of doubles between the owner of a node and the ranks
-  /// where the node is a ghost, in one message per neighbour.
+  /// where the node is a ghost, in one message per neighbour. A message names
+  /// the nodes with a record that differs from the value at rest; the other
+  /// records are not sent.
   ///
   /// The arrays hold the records of all nodes of the grid in the order of their
   /// numbers, owned nodes first, then ghosts. All exchanges are collective.
@@ -21,10 +19,13 @@ namespace talus
   class NodalExchange
   {
   public:
-    /// Set up the messages for @p width doubles per node. Throws ExcUser if the
-    /// mesh is too large for deal.II's indices.
+    /// Set the length of the records, in doubles, and the distance between two
+    /// records in the arrays, which is the length if 0. @p nodes must outlive
+    /// all exchanges.
     void
-    prepare(const NodeNumbering<dim> &nodes, unsigned int width);
+    prepare(const NodeNumbering<dim> &nodes,
+            unsigned int              width,
+            unsigned int              stride = 0);
 
     /// Add the records of ghosts to the records of their owners, in the order
     /// of the ranks, so that sums are identical in each run. Ghosts become
@@ -32,23 +33,52 @@ namespace talus
     void
     add_to_owners(double *records);
 
-    /// Set the numbers at owners to the minimum over owner and ghosts.
+    /// Set the numbers at owners to the minimum over owner and ghosts. Ghosts
+    /// have no number if they are at @p rest.
     void
-    minimum_to_owners(double *records);
+    minimum_to_owners(double *records, double rest);
 
-    /// Copy the records of owners to the ghosts.
+    /// Copy the records of owners to the ghosts. A record with all numbers
+    /// equal to @p rest is not sent.
     void
-    copy_to_ghosts(double *records);
+    copy_to_ghosts(double *records, double rest = 0.);
+
+    /// Nodes with a record in the last messages to this rank, ascending.
+    const std::vector<unsigned int> &
+    received_nodes() const
+    {
+      return received_nodes_;
+    }
 
   private:
+    using Nodes   = std::vector<unsigned int> NodesWithRank::*;
+    using Message = std::vector<double>;
+
     void
-    combine_at_owners(double                         *records,
-                      dealii::VectorOperation::values operation);
+    pack(const std::vector<unsigned int> &nodes,
+         const double                    *records,
+         double                           rest,
+         Message                         &message) const;
+    template <typename Receive>
+    void
+    exchange(Nodes          from,
+             Nodes          to,
+             double        *records,
+             double         rest,
+             const Receive &receive);
+    void
+    count_sent() const;
+    void
+    set_ghosts(double *records, double value) const;
 
-    std::unique_ptr<dealii::Utilities::MPI::Partitioner> partitioner_;
+    const NodeNumbering<dim> *nodes_ = nullptr;
+    unsigned int              width_ = 0, stride_ = 0; ///< doubles
 
-    dealii::AlignedVector<double> buffer_;
-    std::vector<MPI_Request>      requests_;
+    // Kept between calls so that a step does not allocate.
+    std::vector<Message>      outgoing_, incoming_; ///< by neighbour
+    std::vector<MPI_Request>  requests_;
+    std::vector<MPI_Status>   statuses_;
+    std::vector<unsigned int> received_nodes_;
   };
 } // namespace talus
 

@@ -27,7 +27,7 @@ namespace talus
     prepare(const Grid<dim> &grid);
 
     /// Activate the nodes in the patches of the given cells (ascending), and
-    /// the nodes shared with other ranks, which may have points near them.
+    /// the nodes that got sums from other ranks in the last sum_over_ranks().
     void
     activate(const Grid<dim> &grid, const std::vector<unsigned int> &cells);
 
@@ -36,14 +36,15 @@ namespace talus
     clear();
 
     /// Add the sums at hanging nodes to their masters, and the sums of ghosts
-    /// to their owners, with one message per neighbour. Collective.
+    /// to their owners, with one message per neighbour. Nodes of this rank that
+    /// get sums from other ranks are active until clear(). Collective.
     void
     sum_over_ranks(const Grid<dim> &grid);
 
     /// Copy the volume of soil at the owners to the ghosts, after
     /// sum_over_ranks(). Collective.
     void
-    share_volumes(const Grid<dim> &grid);
+    share_volumes();
 
     /// Compute increment dt f/m and new velocity of all active nodes of this
     /// rank with more mass than @p mass_cutoff, kg; other nodes get zero
@@ -177,18 +178,24 @@ namespace talus
   private:
     void
     add_active(const Grid<dim> &grid, unsigned int node);
+    void
+    activate_received(const Grid<dim> &grid);
+    void
+    deactivate_received();
 
-    unsigned int               n_owned_nodes_ = 0;
-    unsigned int               n_nodes_       = 0;
-    LargePageVector<double>    sums_;
-    LargePageVector<double>    motions_;
-    NodalExchange<dim>         exchange_of_sums_;
-    NodalExchange<dim>         exchange_of_motions_;
-    NodalExchange<dim>         exchange_of_volumes_;
-    std::vector<unsigned int>  active_nodes_;
-    std::vector<unsigned int>  active_ghosts_;
-    std::vector<unsigned int>  formerly_active_nodes_;
-    std::vector<unsigned int>  active_boundary_nodes_;
+    unsigned int              n_owned_nodes_ = 0;
+    unsigned int              n_nodes_       = 0;
+    LargePageVector<double>   sums_;
+    LargePageVector<double>   motions_;
+    NodalExchange<dim>        exchange_of_sums_;
+    NodalExchange<dim>        exchange_of_motions_;
+    NodalExchange<dim>        exchange_of_volumes_;
+    std::vector<unsigned int> active_nodes_;
+    std::vector<unsigned int> active_ghosts_;
+    std::vector<unsigned int> formerly_active_nodes_;
+    std::vector<unsigned int> active_boundary_nodes_;
+    unsigned int n_active_of_cells_          = 0; ///< then those of other ranks
+    unsigned int n_active_boundary_of_cells_ = 0;
     std::vector<unsigned char> is_active_;
   };
 

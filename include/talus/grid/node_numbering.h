@@ -25,6 +25,29 @@ namespace talus
 
 
 
+  /// Nodes shared with another rank. Both ranks list the nodes in the same
+  /// order.
+  struct NodesWithRank
+  {
+    unsigned int              rank;
+    std::vector<unsigned int> ghosts; ///< owned by the other rank
+    std::vector<unsigned int> owned;  ///< ghosts on the other rank
+  };
+
+
+
+  /// Messages with nodal records that this rank has sent.
+  struct SentByRank
+  {
+    double n_messages         = 0;
+    double n_nodes            = 0; ///< summed over the exchanges
+    double n_bytes            = 0;
+    double n_ghosts_with_soil = 0; ///< in the last step
+    double n_nodes_with_soil  = 0; ///< ghosts, summed over the exchanges
+  };
+
+
+
   /// Numbers of the nodes known to this rank: owned nodes in the order of their
   /// first occurrence in the owned cells, then ghosts by owner. Ghosts are the
   /// nodes of owned and ghost cells owned by other ranks, and the masters of
@@ -62,11 +85,18 @@ namespace talus
       return ghost_nodes_;
     }
 
-    /// Owned nodes that are ghosts on other ranks, ascending.
-    const std::vector<unsigned int> &
-    interface_nodes() const
+    /// Nodes shared with each neighbour, in the order of the ranks.
+    const std::vector<NodesWithRank> &
+    shared_nodes() const
     {
-      return interface_nodes_;
+      return shared_nodes_;
+    }
+
+    /// Counts of NodalExchange, no part of the numbering.
+    SentByRank &
+    sent() const
+    {
+      return sent_;
     }
 
     const std::vector<HangingNode> &
@@ -88,7 +118,7 @@ namespace talus
   protected:
     explicit NodeNumbering(const Mesh<dim> &mesh);
 
-    /// Number the nodes and find ghost, hanging and interface nodes.
+    /// Number the nodes and find ghost, hanging and shared nodes.
     /// Collective.
     void
     prepare_nodes(const Mesh<dim> &mesh);
@@ -103,14 +133,15 @@ namespace talus
     void
     find_ghost_nodes(const Mesh<dim> &mesh);
     void
-    find_interface_nodes(MPI_Comm communicator);
+    find_shared_nodes(MPI_Comm communicator);
 
-    dealii::FE_Q<dim>         fe_;
-    dealii::DoFHandler<dim>   dof_handler_;
-    dealii::IndexSet          owned_nodes_;
-    dealii::IndexSet          ghost_nodes_;
-    std::vector<unsigned int> interface_nodes_;
-    std::vector<HangingNode>  hanging_nodes_;
+    dealii::FE_Q<dim>          fe_;
+    dealii::DoFHandler<dim>    dof_handler_;
+    dealii::IndexSet           owned_nodes_;
+    dealii::IndexSet           ghost_nodes_;
+    std::vector<NodesWithRank> shared_nodes_;
+    mutable SentByRank         sent_;
+    std::vector<HangingNode>   hanging_nodes_;
     std::map<dealii::types::global_dof_index, dealii::types::global_dof_index>
       twins_; ///< twin of each node on an upper periodic face
   };

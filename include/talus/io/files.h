@@ -91,9 +91,9 @@ namespace talus
 
 
 
-  /// Return a field of a CSV table: 16 significant digits, so that two runs can
-  /// be compared to round-off. Empty if @p value is NaN: the quantity has no
-  /// value.
+  /// Return a field of a CSV table: 16 significant digits, or 17 where 16 would
+  /// not give @p value back exactly. Empty if @p value is NaN: the quantity has
+  /// no value.
   std::string
   csv_field(double value);
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
@@ -117,12 +118,10 @@ namespace talus
 
 
 
-  /// Properties of a shape for the formats.
   struct CellShapeFacts
   {
     unsigned int n_vertices;
-    unsigned int vtk_type;  ///< number of VTK's cell type
-    const char  *xdmf_type; ///< XDMF's TopologyType
+    unsigned int vtk_type; ///< number of VTK's cell type
   };
 
 
@@ -131,11 +130,7 @@ namespace talus
   facts_of(const CellShape shape)
   {
     static constexpr std::array<CellShapeFacts, 5> facts = {
-      {{1, 1, "Polyvertex"},
-       {2, 3, "Polyline"},
-       {3, 5, "Triangle"},
-       {4, 9, "Quadrilateral"},
-       {8, 12, "Hexahedron"}}};
+      {{1, 1}, {2, 3}, {3, 5}, {4, 9}, {8, 12}}};
     return facts[static_cast<unsigned int>(shape)];
   }
 
@@ -147,9 +142,9 @@ namespace talus
 
 
 
-  /// Content of an output time on this rank, for any format: cells of equal
-  /// shape without common vertices, and the items (points, nodes, facets) with
-  /// the fields of the cells.
+  /// Content of an output time on this rank: cells of equal shape without
+  /// common vertices, and the items (points, nodes, facets) with the fields of
+  /// the cells.
   struct OutputCells
   {
     OutputCells(std::vector<Field>  fields,
@@ -235,20 +230,18 @@ namespace talus
 
 
 
-  /// Return the numbers of the vertices of each cell in VTK's order, counted
-  /// from @p first. deal.II counts lexicographically, VTK around each quad.
-  template <typename Number>
-  std::vector<Number>
-  corners_of_cells(const OutputCells &cells, const Number first = 0)
+  /// Return the numbers of the vertices of each cell in VTK's order. deal.II
+  /// counts lexicographically, VTK around each quad.
+  inline std::vector<std::int32_t>
+  corners_of_cells(const OutputCells &cells)
   {
     constexpr std::array<unsigned int, 8> vtk_order = {
       {0, 1, 3, 2, 4, 5, 7, 6}};
-    const unsigned int  n            = cells.n_vertices_per_cell();
-    const bool          is_reordered = n >= 4; // quads and hexes
-    std::vector<Number> corners(cells.n_vertices());
+    const unsigned int        n            = cells.n_vertices_per_cell();
+    const bool                is_reordered = n >= 4; // quads and hexes
+    std::vector<std::int32_t> corners(cells.n_vertices());
     for (std::size_t v = 0; v < corners.size(); ++v)
-      corners[v] =
-        first + v - v % n + (is_reordered ? vtk_order[v % n] : v % n);
+      corners[v] = v - v % n + (is_reordered ? vtk_order[v % n] : v % n);
     return corners;
   }
 } // namespace talus

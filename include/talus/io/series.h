@@ -2,13 +2,19 @@
 #ifndef talus_io_series_h
 #define talus_io_series_h
 
-#include <talus/io/field_writer.h>
 #include <talus/io/files.h>
+#include <talus/io/output_cells.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
 
 namespace talus
 {
-  /// Sequence of outputs over time, name-0000.*, name-0001.*, ..., with an
-  /// index that gives ParaView the times.
+  /// Sequence of outputs over time, name-0000.vtu, name-0001.vtu, ..., with an
+  /// index name.pvd that gives ParaView the times.
   class FieldSeries
   {
   public:
@@ -18,12 +24,11 @@ namespace talus
     begin(const std::filesystem::path &folder,
           const std::string           &name,
           MPI_Comm                     communicator,
-          const std::string           &format,
           Beginning                    beginning = Beginning::fresh);
 
     /// Add the entries of the index to the state of the run, as the text
     /// @p name: per output a line with the time [s], a blank and the name of
-    /// the file, followed by the lines of the description.
+    /// the file.
     void
     list_state(const std::string &name, StateList &list);
 
@@ -34,7 +39,7 @@ namespace talus
       return entries_.empty();
     }
 
-    /// Write the files of the next output time. Collective. Throws ExcUser on
+    /// Write the file of the next output time. Collective. Throws ExcUser on
     /// failure.
     void
     write(const OutputCells &cells);
@@ -44,8 +49,7 @@ namespace talus
     /// the first rank.
     std::vector<std::string>
     missing_files(const std::filesystem::path &folder,
-                  const std::string           &name,
-                  const std::string           &format) const;
+                  const std::string           &name) const;
 
     /// Sync all files that this rank wrote to the disk. Throws ExcUser on
     /// failure.
@@ -53,12 +57,21 @@ namespace talus
     sync();
 
   private:
-    std::filesystem::path              folder_;
-    std::string                        name_;
-    MPI_Comm                           communicator_ = MPI_COMM_NULL;
-    std::unique_ptr<FieldWriter>       writer_;
-    std::vector<IndexEntry>            entries_;
-    std::vector<std::filesystem::path> unsynced_;
+    /// Entry of the index.
+    struct Entry
+    {
+      double      time; ///< s
+      std::string file;
+    };
+
+    void
+    write_index() const;
+
+    std::filesystem::path folder_;
+    std::string           name_;
+    MPI_Comm              communicator_ = MPI_COMM_NULL;
+    std::vector<Entry>    entries_;
+    std::size_t n_synced_ = 0; ///< entries whose files are on the disk
   };
 } // namespace talus
 

@@ -2,47 +2,30 @@
 #ifndef talus_io_vtu_writer_h
 #define talus_io_vtu_writer_h
 
-#include <talus/io/field_writer.h>
+#include <talus/io/output_cells.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <cstddef>
+#include <filesystem>
 #include <ostream>
+#include <vector>
 
 namespace talus
 {
-  /// Format of VTK: with one rank a file base.vtu; with several ranks
-  /// base.R.vtu for each rank R with cells, and base.pvtu. The index is
-  /// NAME.pvd.
-  class VtuWriter : public FieldWriter
-  {
-  public:
-    static constexpr const char *documentation =
-      "one file per rank and output time, to be opened by points.pvd and "
-      "grid.pvd";
+  /// Write @p n bytes as base64 (RFC 4648), padded with '='.
+  void
+  write_base64(std::ostream &out, const unsigned char *bytes, std::size_t n);
 
-    IndexEntry
-    write(const std::filesystem::path        &folder,
-          const std::string                  &base,
-          MPI_Comm                            communicator,
-          const OutputCells                  &cells,
-          std::vector<std::filesystem::path> &unsynced) const override;
 
-    std::vector<std::string>
-    files_of(const std::filesystem::path &folder,
-             const IndexEntry            &entry) const override;
 
-    bool
-    is_complete(const std::filesystem::path &path) const override;
-
-    std::string
-    index_name(const std::string &name) const override
-    {
-      return name + ".pvd";
-    }
-
-    std::filesystem::path
-    write_index(const std::filesystem::path   &folder,
-                const std::string             &name,
-                const std::vector<IndexEntry> &entries) const override;
-  };
+  /// Write the content of a DataArray of VTK's XML files with format="binary"
+  /// and compressor="vtkZLibDataCompressor": base64 of the four numbers 1,
+  /// size, size and compressed size [bytes], followed by base64 of the
+  /// compressed values.
+  template <typename Number>
+  void
+  write_vtu_array(std::ostream &out, const std::vector<Number> &values);
 
 
 
@@ -52,6 +35,22 @@ namespace talus
   /// box would hold the values at every corner.)
   void
   write_vtu(std::ostream &out, const OutputCells &cells);
+
+
+
+  /// Write the cells of all ranks into the VTU file @p path, a piece for each
+  /// rank with cells. The first rank writes the file, completely or, with
+  /// ExcUser, not at all. Collective.
+  void
+  write_vtu(const std::filesystem::path &path,
+            MPI_Comm                     communicator,
+            const OutputCells           &cells);
+
+
+
+  /// Return whether a VTU file exists and is complete up to the end.
+  bool
+  is_complete_vtu(const std::filesystem::path &path);
 } // namespace talus
 
 #endif

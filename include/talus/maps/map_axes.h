@@ -3,12 +3,12 @@
 #define talus_maps_map_axes_h
 
 #include <talus/base/raster.h>
+#include <talus/maps/map_settings.h>
 #include <talus/maps/plan_columns.h>
 #include <talus/problem/problem.h>
 #include <talus/state/state.h>
 
 #include <array>
-#include <string>
 
 namespace talus
 {
@@ -19,16 +19,14 @@ namespace talus
 
 
   /// Return the axes of columns that cover the mesh before growth. In 3-D their
-  /// faces coincide with cell faces of the raster of the surface @p surface, if
-  /// there is one.
-  /// @param cell_size width of the columns, m; 0: width of the cells of the
-  /// raster or, without a raster, of the mesh
+  /// faces coincide with cell faces of the raster of the maps, if there is one.
+  /// Throw ExcUser if the raster does not exist, or if the maps have too many
+  /// cells.
   template <int dim>
   MapAxes<dim>
   map_axes(const Problem<dim> &problem,
            const State<dim>   &state,
-           const std::string  &surface,
-           double              cell_size);
+           const MapSettings  &settings);
 
 
 

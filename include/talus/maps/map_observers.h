@@ -7,9 +7,9 @@
 
 namespace talus
 {
-  /// Add the plan-view observers (maps, stations, lines, runout) to @p output,
-  /// and declare the sections Maps, Stations and Runout. @p problem must
-  /// outlive @p output.
+  /// Add the plan-view observers (maps, stations, lines, runout, series) to
+  /// @p output, and declare the sections Maps, Stations and Runout. @p problem
+  /// must outlive @p output.
   template <int dim>
   void
   add_map_observers(Problem<dim> &problem, Output<dim> &output);

@@ -21,7 +21,9 @@ namespace talus
     check() const override;
 
     double
-    shear_modulus() const override
+    largest_shear_modulus(const Points<dim> & /*points*/,
+                          unsigned int /*begin*/,
+                          unsigned int /*end*/) const override
     {
       return moduli().mu;
     }

@@ -2,11 +2,9 @@
 #ifndef talus_materials_hencky_kernel_h
 #define talus_materials_hencky_kernel_h
 
-#include <talus/base/dual.h>
 #include <talus/materials/hyperelastic_kernel.h>
 #include <talus/materials/moduli.h>
 
-#include <algorithm>
 #include <limits>
 
 namespace talus
@@ -109,55 +107,6 @@ namespace talus
           for (unsigned int j = i; j < 3; ++j)
             strain[stress_index<3>(i, j)] += log_l * n[i][k] * n[j][k];
       }
-    return strain;
-  }
-
-
-
-  /// Logarithmic strain in space with derivatives. At equal stretches the
-  /// derivatives of the principal directions are infinite, but the derivative
-  /// of ln b is not. In principal axes, component (k, l) of db is multiplied by
-  /// (ln b_k - ln b_l)/(b_k - b_l), or by 1/b_k in the limit @cite ogden1984,
-  /// section 3.4.
-  TALUS_ALWAYS_INLINE Stress<3, Dual<9>>
-  logarithmic_strain(const DeformationState<3, Dual<9>> &state)
-  {
-    DeformationState<3, double> values;
-    Matrix<3, double>           A;
-    for (unsigned int i = 0; i < 3; ++i)
-      for (unsigned int j = i; j < 3; ++j)
-        {
-          const unsigned int c = stress_index<3>(i, j);
-          values.b_minus_1[c]  = state.b_minus_1[c].value;
-          A[i][j] = A[j][i] = values.b_minus_1[c];
-        }
-    const auto         logarithm = logarithmic_strain(values);
-    Stress<3, Dual<9>> strain{};
-    std::copy(logarithm.begin(), logarithm.end(), strain.begin());
-
-    const auto n = principal_directions(A);
-    for (unsigned int k = 0; k < 3; ++k)
-      for (unsigned int l = 0; l < 3; ++l)
-        {
-          const double y = (A[k][k] - A[l][l]) / (1. + A[l][l]);
-          const double factor =
-            0.5 / (1. + A[l][l]) * (y == 0. ? 1. : log1p_by_series(y) / y);
-          Dual<9> b_kl;
-          for (unsigned int i = 0; i < 3; ++i)
-            for (unsigned int j = 0; j < 3; ++j)
-              b_kl +=
-                n[i][k] * n[j][l] *
-                state
-                  .b_minus_1[stress_index<3>(std::min(i, j), std::max(i, j))];
-          for (unsigned int i = 0; i < 3; ++i)
-            for (unsigned int j = i; j < 3; ++j)
-              {
-                auto &component = strain[stress_index<3>(i, j)];
-                for (unsigned int q = 0; q < 9; ++q)
-                  component.derivative[q] +=
-                    factor * n[i][k] * n[j][l] * b_kl.derivative[q];
-              }
-        }
     return strain;
   }
 

@@ -7,7 +7,6 @@
 namespace talus
 {
   struct HerschelBulkleyFlow;
-  struct Strength;
 
   /// Variants of the law with strength s_u + K gdot^n. Bingham: n = 1, and K is
   /// the viscosity.
@@ -41,11 +40,7 @@ namespace talus
     check() const override;
 
     double
-    largest_strength_factor(const StrengthRange &range = {1.,
-                                                          1.}) const override;
-
-    double
-    shear_strength(const Points<dim> &points, unsigned int p) const override;
+    largest_strength_factor(const StrengthRange &range) const override;
 
     bool
     softens() const override;
@@ -64,6 +59,9 @@ namespace talus
       return 1.;
     }
 
+    std::string
+    slower_softening(double times) const override;
+
     HerschelBulkleyFlow
     flow_rule(double dt) const override;
 
@@ -71,8 +69,8 @@ namespace talus
     name_of_consistency() const;
     double
     strain_to_remould(double cell_size) const;
-    Strength
-    strength_at_rest(double undisturbed) const;
+    double
+    scale_of_softening() const;
 
     FlowLaw flow_law_;
     double  consistency_       = 100.;

@@ -17,7 +17,7 @@ namespace talus
   ///   largest_modulus(const DeformationState<dim, Number> &) const
   /// returns J M, where M is the largest eigenvalue of the acoustic tensor over
   /// all directions, or an upper bound, Pa. The explicit step calls both for
-  /// several points at once, the static stages with Dual. The functions of
+  /// several points at once; static stages refuse such laws. The functions of
   /// HyperelasticLaw are in hyperelastic_law.templates.h, to be included by the
   /// .cc file of a law.
   template <int dim, typename StrainEnergy>
@@ -40,21 +40,6 @@ namespace talus
                   unsigned int              begin,
                   unsigned int              end,
                   double                    dt) const override;
-
-    bool
-    linearize(const Points<dim>        &points,
-              const StepWorkspace<dim> &workspace,
-              unsigned int              begin,
-              unsigned int              end,
-              StrainMeasure             measure,
-              StressTangent<dim>       *linearization) const override;
-
-    void
-    commit_load_step(Points<dim>              &points,
-                     const StepWorkspace<dim> &workspace,
-                     unsigned int              begin,
-                     unsigned int              end,
-                     StrainMeasure             measure) const override;
 
     void
     wave_modulus(const Points<dim> &points,

@@ -32,17 +32,6 @@ namespace talus
 
 
 
-  template <int dim, typename Number>
-  inline Matrix<dim, Number>
-  identity_plus(Matrix<dim, Number> A)
-  {
-    for (unsigned int i = 0; i < dim; ++i)
-      A[i][i] += 1.;
-    return A;
-  }
-
-
-
   /// Strain of a step with infinitesimal displacement.
   template <int dim, typename Number>
   inline StrainIncrement<dim, Number>
@@ -61,44 +50,21 @@ namespace talus
 
 
 
-  template <int dim, typename Number>
-  inline StrainIncrement<dim, Number>
-  strain_of_load_step(const Matrix<dim, Number> &H, const StrainMeasure measure)
-  {
-    if (measure == StrainMeasure::small)
-      return small_strain_increment(H);
-    Motion<dim, Number> motion;
-    motion.increment  = H;
-    motion.dilatation = determinant_increment(H);
-    return strain_increment(motion);
-  }
-
-
-
-  /// Store the first Piola-Kirchhoff stress, seen from the start of the step,
-  /// and its derivative in @p linearization. @p kirchhoff is det(I + H) times
-  /// the Cauchy stress, Pa.
+  /// Return the stress @p sigma, Pa, and its derivative, row by row.
   template <int dim>
-  inline void
-  store_nominal(const Stress<dim, Dual<dim * dim>> &kirchhoff,
-                const Matrix<dim, Dual<dim * dim>> &H,
-                const StrainMeasure                 measure,
-                StressTangent<dim>                 &linearization)
+  inline StressTangent<dim>
+  stress_tangent(const Stress<dim, Dual<dim * dim>> &sigma)
   {
-    using Number = Dual<dim * dim>;
-    const auto inverse_f =
-      (measure == StrainMeasure::large ? inverse(identity_plus(H))
-                                       : identity<dim, Number>());
+    StressTangent<dim> result;
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
         {
-          Number P;
-          for (unsigned int k = 0; k < dim; ++k)
-            P += kirchhoff[stress_index<dim>(std::min(i, k), std::max(i, k))] *
-                 inverse_f[j][k];
-          linearization.stress[dim * i + j]  = P.value;
-          linearization.tangent[dim * i + j] = P.derivative;
+          const auto &component =
+            sigma[stress_index<dim>(std::min(i, j), std::max(i, j))];
+          result.stress[dim * i + j]  = component.value;
+          result.tangent[dim * i + j] = component.derivative;
         }
+    return result;
   }
 } // namespace talus
 

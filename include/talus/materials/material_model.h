@@ -17,21 +17,11 @@
 
 namespace talus
 {
-  /// Strain measure of a quasi-static load step.
-  enum class StrainMeasure
-  {
-    small, ///< symmetric displacement gradient; soil stays in place
-    large  ///< strain of the dynamics; soil, volumes and boxes move
-  };
-
-
-
   /// Stress at the end of a quasi-static load step, and its derivative.
   template <int dim>
   struct StressTangent
   {
-    /// First Piola-Kirchhoff stress seen from the start of the step, row by
-    /// row, Pa; at small strain the Cauchy stress.
+    /// Cauchy stress, row by row, Pa.
     std::array<double, dim * dim> stress;
     /// Derivative of the stress by the displacement gradient H of the step, Pa.
     std::array<std::array<double, dim * dim>, dim * dim> tangent;
@@ -84,21 +74,12 @@ namespace talus
     virtual double
     shear_strength(const Points<dim> &points, unsigned int p) const;
 
-    /// Strength of undisturbed soil as given by the user; null without
-    /// strength.
+    /// Strength of undisturbed soil as given by the user; null for laws without
+    /// the column `undrained shear strength`, to be set for new points.
     virtual const UndrainedStrength *
     undrained_strength() const
     {
       return nullptr;
-    }
-
-    /// Return whether the strength differs from point to point. The law then
-    /// has the column `undrained shear strength`, to be set for new points.
-    bool
-    has_strength_column() const
-    {
-      const UndrainedStrength *strength = undrained_strength();
-      return strength != nullptr && strength->varies();
     }
 
     /// Throw ExcUser if the law does not allow undrained shear strengths in the
@@ -109,10 +90,9 @@ namespace talus
 
     /// Largest allowed strength factor [-]: stronger softening soil would
     /// soften faster than it can unload elastically. Infinite without
-    /// softening. @p range, the range of strengths, is used only if
-    /// has_strength_column().
+    /// softening. @p range is the range of undrained shear strengths.
     virtual double
-    largest_strength_factor(const StrengthRange & /*range*/ = {1., 1.}) const
+    largest_strength_factor(const StrengthRange & /*range*/) const
     {
       return std::numeric_limits<double>::infinity();
     }
@@ -172,41 +152,41 @@ namespace talus
                   double                    dt) const = 0;
 
     // For the search for equilibrium, the workspace holds the displacement
-    // gradient of a load step in place of the velocity gradient. Laws with a
-    // rate-dependent stress take the limit of zero rate.
+    // gradient of a load step in place of the velocity gradient. The strain is
+    // the symmetric part; points and boxes stay. Laws with a rate-dependent
+    // stress take the limit of zero rate. Laws with is_hyperelastic(), whose
+    // stress follows from the deformation, take no load steps.
 
     /// Compute the stress of the points [begin, end) at the end of the load
     /// step and its derivative, stored in linearization[p - begin]; points do
-    /// not change. Returns false if a point would be inverted.
-    virtual bool
-    linearize(const Points<dim>        &points,
-              const StepWorkspace<dim> &workspace,
-              unsigned int              begin,
-              unsigned int              end,
-              StrainMeasure             measure,
-              StressTangent<dim>       *linearization) const = 0;
-
-    /// Advance the points [begin, end) to the end of the load step, as
-    /// update_stress(); at small strain the edges do not change.
+    /// not change.
     virtual void
-    commit_load_step(Points<dim>              &points,
-                     const StepWorkspace<dim> &workspace,
-                     unsigned int              begin,
-                     unsigned int              end,
-                     StrainMeasure             measure) const = 0;
-
-    /// Shear modulus of the undeformed material, Pa.
-    virtual double
-    shear_modulus() const = 0;
-
-    /// Largest shear modulus at the points [begin, end), Pa.
-    virtual double
-    largest_shear_modulus(const Points<dim> & /*points*/,
-                          unsigned int /*begin*/,
-                          unsigned int /*end*/) const
+    linearize(const Points<dim> & /*points*/,
+              const StepWorkspace<dim> & /*workspace*/,
+              unsigned int /*begin*/,
+              unsigned int /*end*/,
+              StressTangent<dim> * /*linearization*/) const
     {
-      return shear_modulus();
+      AssertThrow(false, dealii::ExcNotImplemented());
     }
+
+    /// Set stress, energies and internal variables of the points [begin, end)
+    /// to the end of the load step.
+    virtual void
+    commit_load_step(Points<dim> & /*points*/,
+                     const StepWorkspace<dim> & /*workspace*/,
+                     unsigned int /*begin*/,
+                     unsigned int /*end*/) const
+    {
+      AssertThrow(false, dealii::ExcNotImplemented());
+    }
+
+    /// Largest shear modulus of the undeformed material at the points
+    /// [begin, end), Pa.
+    virtual double
+    largest_shear_modulus(const Points<dim> &points,
+                          unsigned int       begin,
+                          unsigned int       end) const = 0;
 
     /// Compute the modulus M = rho c^2 of the fastest wave at the points
     /// [begin, end), Pa, with wave speed c and current density rho; stored in

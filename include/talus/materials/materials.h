@@ -66,16 +66,15 @@ namespace talus
       return strength_factor_;
     }
 
-    /// Column `undrained shear strength`, Pa, for strength that differs from
-    /// point to point; invalid_unsigned_int if no material uses it. To be set
-    /// for new points.
+    /// Column `undrained shear strength`, Pa; invalid_unsigned_int if no
+    /// material uses it. To be set for new points.
     unsigned int
     undrained_strength() const
     {
       return undrained_strength_;
     }
 
-    /// Range of undrained_strength() in the soil of @p body, Pa; {1, 1} if the
+    /// Range of undrained_strength() in the soil of @p body, Pa; {0, 0} if the
     /// material does not use the column. Collective.
     StrengthRange
     strength_range(const Points<dim> &points,
@@ -88,11 +87,13 @@ namespace talus
     largest_strength_factor(const Points<dim> &points,
                             MPI_Comm           communicator) const;
 
-    /// Tell all laws the largest edge of cells with soil, m. Throws ExcUser,
-    /// with the largest cells allowed, if soil of uniform strength softens
-    /// faster than it can unload elastically.
+    /// Tell all laws the largest edge of cells with soil, m.
     void
-    use_cell_size(double largest);
+    use_cell_size(const double largest)
+    {
+      for (const auto &model : models_)
+        model->use_cell_size(largest);
+    }
 
     /// Set the column of cell sizes, if a law needs it, at the points of
     /// @p batch. @p size_of maps the index of a cell to its edge, m.

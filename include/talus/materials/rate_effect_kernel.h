@@ -111,17 +111,17 @@ namespace talus
     FlowRule   at_rest;
     RateEffect rate;
 
-    template <int dim, typename Number, typename Variable, typename Factor>
+    template <int dim, typename Number>
     TALUS_ALWAYS_INLINE Flow<Number>
                         operator()(const StressStep<dim, Number> &trial,
-               const Variable                &variable,
-               const Factor                  &strength_factor) const
+               const Number                  &softening,
+               const PointStrength<Number>   &strength) const
     {
       const auto  &deviator = trial.deviator_after;
       const Number stress =
         sqrt(FlowRule::square_of_stress * contract(deviator, deviator) +
              std::numeric_limits<double>::min());
-      const auto   curve = at_rest.curve(Number(variable), strength_factor);
+      const auto   curve = at_rest.curve(softening, strength);
       const Number increment =
         plastic_increment(Number(stress - curve.strength), curve, rate);
       return {curve.modulus * increment / stress, increment};

@@ -9,7 +9,7 @@
 namespace talus
 {
   struct NoFlow;
-  struct StrengthColumns;
+  struct StrengthOfPoints;
 
   /// Base of laws in rate form: Hooke's law between the Jaumann rate of the
   /// Cauchy stress and the rate of deformation, see elastic_trial(), followed
@@ -18,16 +18,16 @@ namespace talus
   /// formula, with
   ///   Flow<Number>
   ///   operator()(const StressStep<dim, Number> &trial,
-  ///              const Variable                &plastic,
-  ///              const Factor                  &strength_factor) const,
-  /// for the trial stress, Pa, the plastic variable before the step and the
-  /// strength factor. In the explicit step Number and Variable hold several
-  /// points at once, Factor too unless it is NoStrengthFactor; in static stages
-  /// Number is Dual or double, Variable is double. A rule that changes the mean
-  /// stress returns Flow<Number, Number>. NoFlow is for elastic laws. An
-  /// iterative rule may overload update_rate_law_points(). The functions of
-  /// RateLaw are in rate_law.templates.h, to be included by the .cc file of a
-  /// law.
+  ///              const Strength                &softening,
+  ///              const PointStrength<Strength> &strength) const,
+  /// for the trial stress, Pa, the softening before the step (the plastic
+  /// variable, unless the law has another) and the strength of the point. In
+  /// the explicit step Number and Strength hold several points at once; in
+  /// static stages Number is Dual or double, Strength is double. A rule that
+  /// changes the mean stress returns Flow<Number, Number>. NoFlow is for
+  /// elastic laws. An iterative rule may overload update_rate_law_points(). The
+  /// functions of RateLaw are in rate_law.templates.h, to be included by the
+  /// .cc file of a law.
   template <int dim, typename FlowRule>
   class RateLaw : public ElasticLaw<dim>
   {
@@ -49,20 +49,18 @@ namespace talus
                   unsigned int              end,
                   double                    dt) const override;
 
-    bool
+    void
     linearize(const Points<dim>        &points,
               const StepWorkspace<dim> &workspace,
               unsigned int              begin,
               unsigned int              end,
-              StrainMeasure             measure,
               StressTangent<dim>       *linearization) const override;
 
     void
     commit_load_step(Points<dim>              &points,
                      const StepWorkspace<dim> &workspace,
                      unsigned int              begin,
-                     unsigned int              end,
-                     StrainMeasure             measure) const override;
+                     unsigned int              end) const override;
 
     void
     wave_modulus(const Points<dim> &points,
@@ -83,12 +81,10 @@ namespace talus
     }
 
   protected:
-    /// Plastic variable of point @p p [-]; 0 for elastic laws.
+    /// Variable on which the strength of point @p p depends [-]; 0 for elastic
+    /// laws.
     double
-    plastic_variable(const Points<dim> &points, const unsigned int p) const
-    {
-      return is_plastic ? points.data(plastic_variable_)[p] : 0.;
-    }
+    softening(const Points<dim> &points, const unsigned int p) const;
 
     /// Flow rule for a step of @p dt seconds; infinite for load steps, which
     /// are infinitely slow.
@@ -105,20 +101,12 @@ namespace talus
                      unsigned int              end,
                      double                    dt) const;
 
+    /// Strength and stiffness of the points. Overrides complete the result of
+    /// this function, which has the strength factor.
+    virtual StrengthOfPoints
+    strength_of(const Points<dim> &points) const;
+
   private:
-    /// Columns by which strength and stiffness differ from point to point.
-    virtual StrengthColumns
-    strength_columns() const;
-
-    auto
-    moduli_in_load_step(const Points<dim> &points) const;
-    auto
-    flow_in_load_step(const Points<dim> &points) const;
-
-    template <typename Action>
-    void
-    with_strength(const Points<dim> &points, const Action &action) const;
-
     std::string  name_of_plastic_variable_;
     unsigned int plastic_variable_ = dealii::numbers::invalid_unsigned_int;
   };

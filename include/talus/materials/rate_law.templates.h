@@ -8,7 +8,6 @@
 #include <talus/materials/load_step.h>
 #include <talus/materials/rate_law.h>
 #include <talus/materials/rate_law_kernel.h>
-#include <talus/materials/strength_factor.h>
 
 #include <algorithm>
 #include <limits>
@@ -18,52 +17,6 @@ namespace talus
   /// Length of a load step of the static stages, s.
   inline constexpr double infinitely_slow =
     std::numeric_limits<double>::infinity();
-
-
-
-  /// Implement MaterialModel::linearize() for laws in rate form: @p moduli_at
-  /// maps a point to its moduli, @p flow a point and its trial stress to a
-  /// Flow. Returns false if a point is inverted.
-  template <int dim, typename ModuliAt, typename FlowRule>
-  inline bool
-  linearize_rate_law(const Points<dim>        &points,
-                     const StepWorkspace<dim> &workspace,
-                     const unsigned int        begin,
-                     const unsigned int        end,
-                     const StrainMeasure       measure,
-                     const ModuliAt           &moduli_at,
-                     StressTangent<dim>       *linearization,
-                     const FlowRule           &flow)
-  {
-    using Number    = Dual<dim * dim>;
-    const auto work = workspace.view(begin, end);
-    for (unsigned int p = begin; p < end; ++p)
-      {
-        const auto   H          = load_independent_gradient(work, p);
-        const Number dilatation = determinant_increment(H);
-        if (measure == StrainMeasure::large && !(dilatation.value > -1.))
-          return false;
-        const auto          strain = strain_of_load_step(H, measure);
-        const auto          before = load_stress<dim, double>(points, p);
-        Stress<dim, Number> sigma;
-        std::copy(before.begin(), before.end(), sigma.begin());
-
-        const auto   trial = elastic_trial<dim>(sigma, strain, moduli_at(p));
-        const auto   flow_here = flow(p, trial);
-        const Number removed   = flow_here.removed;
-        auto         deviator  = trial.deviator_after;
-        for (Number &component : deviator)
-          component *= 1. - removed;
-        sigma =
-          add_mean(turn(strain.half_rotation, deviator),
-                   trial.mean_after - moduli_at(p).bulk * flow_here.dilation);
-        if (measure == StrainMeasure::large)
-          for (Number &component : sigma)
-            component *= 1. + dilatation;
-        store_nominal(sigma, H, measure, linearization[p - begin]);
-      }
-    return true;
-  }
 
 
 
@@ -90,28 +43,28 @@ namespace talus
 
 
   template <int dim, typename FlowRule>
-  StrengthColumns
-  RateLaw<dim, FlowRule>::strength_columns() const
+  StrengthOfPoints
+  RateLaw<dim, FlowRule>::strength_of(const Points<dim> &points) const
   {
-    return {this->strength_factor(),
-            dealii::numbers::invalid_unsigned_int,
-            false};
+    StrengthOfPoints strength;
+    if (is_plastic &&
+        this->strength_factor() != dealii::numbers::invalid_unsigned_int)
+      strength.factor.column = points.data(this->strength_factor());
+    strength.softening_column = plastic_variable_;
+    return strength;
   }
 
 
 
-  /// Call @p action with the strength factor of the points, as
-  /// with_point_strength() does; elastic laws have no strength.
   template <int dim, typename FlowRule>
-  template <typename Action>
-  void
-  RateLaw<dim, FlowRule>::with_strength(
-    [[maybe_unused]] const Points<dim> &points, const Action &action) const
+  double
+  RateLaw<dim, FlowRule>::softening(const Points<dim> &points,
+                                    const unsigned int p) const
   {
     if constexpr (is_plastic)
-      with_point_strength(points, strength_columns(), action);
+      return points.data(strength_of(points).softening_column)[p];
     else
-      action(no_strength_factor);
+      return 0.;
   }
 
 
@@ -142,30 +95,27 @@ namespace talus
     TalusAssert(!is_plastic ||
                   plastic_variable_ != dealii::numbers::invalid_unsigned_int,
                 dealii::ExcMessage("add_columns() was not called."));
-    const Moduli       moduli    = this->moduli();
-    const Rule         flow      = rule;
-    const auto         columns   = points.view();
-    const auto         work      = workspace.view(begin, end);
-    const unsigned int plastic   = plastic_variable_;
-    const unsigned int softening = strength_columns().band.softening;
-    bool               is_sound  = true;
-    with_strength(points, [&](const auto &factor) {
-      // Constructed here, not captured, so that the compiler knows all values.
-      const RateLawStep<dim, Rule> step = {
-        columns, work, plastic, dt, moduli, flow, softening};
-      constexpr unsigned int n    = n_registers_at_once<Rule>;
-      unsigned int           rest = begin;
-      if constexpr (n > 1)
-        for (; rest + n * simd_width <= end; rest += n * simd_width)
-          is_sound &= update_rate_law_points<dim, Simd<simd_width>, n>(step,
-                                                                       rest,
-                                                                       factor);
-      for_each_simd(
-        rest, end, [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
-          is_sound &=
-            update_rate_law_points<dim, decltype(number), 1>(step, p, factor);
-        });
-    });
+    // Constructed here, not captured, so that the compiler knows all values.
+    const RateLawStep<dim, Rule> step     = {points.view(),
+                                             workspace.view(begin, end),
+                                             plastic_variable_,
+                                             dt,
+                                             this->moduli(),
+                                             rule,
+                                             strength_of(points)};
+    constexpr unsigned int       n        = n_registers_at_once<Rule>;
+    unsigned int                 rest     = begin;
+    bool                         is_sound = true;
+    if constexpr (n > 1)
+      for (; rest + n * simd_width <= end; rest += n * simd_width)
+        is_sound &=
+          update_rate_law_points<dim, Simd<simd_width>, n>(step, rest);
+    for_each_simd(rest,
+                  end,
+                  [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+                    is_sound &=
+                      update_rate_law_points<dim, decltype(number), 1>(step, p);
+                  });
     if (is_sound)
       return;
     throw_inverted_point(points,
@@ -179,77 +129,38 @@ namespace talus
 
 
 
-  /// Return a function that maps a point to its moduli.
   template <int dim, typename FlowRule>
-  auto
-  RateLaw<dim, FlowRule>::moduli_in_load_step(const Points<dim> &points) const
-  {
-    return [&points, columns = strength_columns(), moduli = this->moduli()](
-             const unsigned int p) {
-      return columns.stiffness_follows
-               ? moduli_of_point(moduli,
-                                 PointStrength<double>{
-                                   1., 1., points.data(columns.strength)[p]})
-               : moduli;
-    };
-  }
-
-
-
-  /// Return a function that maps a point and its trial stress to the flow in
-  /// a load step.
-  template <int dim, typename FlowRule>
-  auto
-  RateLaw<dim, FlowRule>::flow_in_load_step(const Points<dim> &points) const
-  {
-    return [this,
-            &points,
-            columns = strength_columns(),
-            rule    = flow_rule(infinitely_slow)](const unsigned int p,
-                                               const auto        &trial) {
-      const double plastic = this->plastic_variable(points, p);
-      const double factor  = this->strength_factor(points, p);
-      if constexpr (is_plastic)
-        if (const auto &band = columns.band;
-            band.softening != dealii::numbers::invalid_unsigned_int)
-          return rule(trial,
-                      points.data(band.softening)[p],
-                      band_strength(points, columns)(p, double()));
-      if constexpr (is_plastic)
-        if (columns.strength != dealii::numbers::invalid_unsigned_int)
-          {
-            const double strength = points.data(columns.strength)[p];
-            return rule(trial,
-                        plastic,
-                        PointStrength<double>{factor,
-                                              strength,
-                                              columns.stiffness_follows
-                                                ? strength
-                                                : 1.});
-          }
-      return rule(trial, plastic, factor);
-    };
-  }
-
-
-
-  template <int dim, typename FlowRule>
-  bool
+  void
   RateLaw<dim, FlowRule>::linearize(const Points<dim>        &points,
                                     const StepWorkspace<dim> &workspace,
                                     const unsigned int        begin,
                                     const unsigned int        end,
-                                    const StrainMeasure       measure,
                                     StressTangent<dim> *linearization) const
   {
-    return linearize_rate_law(points,
-                              workspace,
-                              begin,
-                              end,
-                              measure,
-                              moduli_in_load_step(points),
-                              linearization,
-                              flow_in_load_step(points));
+    using Number                 = Dual<dim * dim>;
+    const auto     work          = workspace.view(begin, end);
+    const Moduli   moduli_of_law = this->moduli();
+    const FlowRule rule          = flow_rule(infinitely_slow);
+    const auto     strength_at   = strength_of(points);
+    for (unsigned int p = begin; p < end; ++p)
+      {
+        const auto strain =
+          small_strain_increment(load_independent_gradient(work, p));
+        const auto          strength = strength_at(p, double());
+        const auto          moduli   = moduli_of_point(moduli_of_law, strength);
+        const auto          before   = load_stress<dim, double>(points, p);
+        Stress<dim, Number> sigma;
+        std::copy(before.begin(), before.end(), sigma.begin());
+
+        const auto   trial   = elastic_trial<dim>(sigma, strain, moduli);
+        const auto   flow    = rule(trial, softening(points, p), strength);
+        const Number removed = flow.removed;
+        sigma                = trial.deviator_after;
+        for (Number &component : sigma)
+          component *= 1. - removed;
+        linearization[p - begin] = stress_tangent<dim>(
+          add_mean(sigma, trial.mean_after - moduli.bulk * flow.dilation));
+      }
   }
 
 
@@ -259,47 +170,30 @@ namespace talus
   RateLaw<dim, FlowRule>::commit_load_step(Points<dim>              &points,
                                            const StepWorkspace<dim> &workspace,
                                            const unsigned int        begin,
-                                           const unsigned int        end,
-                                           const StrainMeasure measure) const
+                                           const unsigned int        end) const
   {
-    const auto         columns   = points.view();
-    const auto         work      = workspace.view(begin, end);
-    const Moduli       moduli    = this->moduli();
-    const FlowRule     rule      = flow_rule(infinitely_slow);
-    const unsigned int softening = strength_columns().band.softening;
-    with_strength(points, [&](const auto &factor) {
-      for (unsigned int p = begin; p < end; ++p)
-        {
-          Motion<dim, double> motion;
-          if (measure == StrainMeasure::large)
-            motion = advance_edges<dim, double>(columns, work, p, 1.);
-          else
-            {
-              motion.increment = load_velocity_gradient<dim, double>(work, p);
-              motion.volume_before = motion.volume_after =
-                volume_of_points<dim, double>(points, p);
-            }
-          const auto strain = strain_of_load_step(motion.increment, measure);
-          const auto factor_here = factor(p, double());
-          const auto moduli_here = moduli_of_point(moduli, factor_here);
-          const RateLawTrial<dim, double, double> trial = {
-            motion,
-            strain,
-            moduli_here,
-            elastic_trial<dim, double>(load_stress<dim, double>(points, p),
-                                       strain,
-                                       moduli_here)};
-          const auto flow =
-            rule(trial.stress,
-                 softening_variable<std::decay_t<decltype(factor_here)>>(
-                   columns, softening, p, plastic_variable(points, p)),
-                 factor_here);
-          if constexpr (is_plastic)
-            points.data(plastic_variable_)[p] += flow.increment;
-          soften(columns, softening, p, flow.increment, factor_here);
-          flow_plastically(columns, p, trial, flow);
-        }
-    });
+    const RateLawStep<dim, FlowRule> step = {points.view(),
+                                             workspace.view(begin, end),
+                                             plastic_variable_,
+                                             1.,
+                                             this->moduli(),
+                                             flow_rule(infinitely_slow),
+                                             strength_of(points)};
+    for (unsigned int p = begin; p < end; ++p)
+      {
+        RateLawTrial<dim, double> trial;
+        trial.motion.increment =
+          load_velocity_gradient<dim, double>(step.workspace, p);
+        trial.motion.volume_before = trial.motion.volume_after =
+          volume_of_points<dim, double>(points, p);
+        trial.strain = small_strain_increment(trial.motion.increment);
+        set_trial_stress(step, p, trial);
+        const auto flow =
+          step.flow_rule(trial.stress, softening(points, p), trial.strength);
+        if constexpr (is_plastic)
+          soften(step, p, flow.increment, trial.strength);
+        flow_plastically(step.points, p, trial, flow);
+      }
   }
 
 

@@ -9,12 +9,12 @@
 namespace talus
 {
   /// Base of laws for clay sheared without drainage: flow at constant volume
-  /// with an undrained shear strength, which may differ from point to point.
-  /// The flow rule takes strength() and moduli(), and multiplies both by
-  /// share_of_strength() and modulus_of_point(). With a softening displacement
-  /// the rule takes the column "softening", 1 at that displacement, and
-  /// multiplies slopes by slope_of_point(). With a rate coefficient the rule is
-  /// applied as RateDependentFlow<FlowRule>. The functions are in
+  /// with the undrained shear strength of each point, a column. With a
+  /// stiffness ratio the moduli of the law belong to a strength of 1 Pa. With a
+  /// softening displacement the softening of the flow rule is the column
+  /// "softening", 1 at that displacement. The rule has a function curve(), see
+  /// VonMisesFlow. With a rate coefficient the rule is applied as
+  /// RateDependentFlow<FlowRule>. The functions are in
   /// undrained_law.templates.h, to be included by the .cc file of a law.
   template <int dim, typename FlowRule>
   class UndrainedLaw : public RateLaw<dim, FlowRule>
@@ -28,13 +28,25 @@ namespace talus
                  const std::string &sentence,
                  const std::string &softening_strain);
 
-    /// Throw ExcUser also if the strength is negative or, with a stiffness
-    /// ratio, zero.
     void
     check() const override;
 
+    /// Throw ExcUser if a stiffness proportional to the strength would be zero,
+    /// or if soil would soften faster than it can unload elastically.
+    void
+    check_strength(const StrengthRange &range) const override;
+
+    double
+    shear_strength(const Points<dim> &points, unsigned int p) const override;
+
     void
     add_columns(Points<dim> &points) override;
+
+    /// Set also the strength, if it is a number for all points.
+    void
+    initialize(Points<dim> &points,
+               unsigned int begin,
+               unsigned int end) const override;
 
     void
     update_stress(Points<dim>              &points,
@@ -74,19 +86,11 @@ namespace talus
     }
 
   protected:
-    /// Strength of undisturbed soil, Pa; 1 Pa if given by a column.
-    double
-    strength() const
-    {
-      return strength_.of_flow_rule();
-    }
-
     /// Strength of undisturbed soil at point @p p, Pa.
     double
     strength(const Points<dim> &points, const unsigned int p) const
     {
-      return this->has_strength_column() ? points.data(strength_column_)[p]
-                                         : strength();
+      return points.data(strength_column_)[p];
     }
 
     /// Return whether moduli are proportional to the strength of each point;
@@ -94,7 +98,7 @@ namespace talus
     bool
     has_moduli_of_points() const
     {
-      return this->has_strength_column() && !stiffness_ratio_.empty();
+      return !stiffness_ratio_.empty();
     }
 
     /// Displacement across a shear band at which softening is 1, m; only if
@@ -103,15 +107,6 @@ namespace talus
     softening_displacement() const
     {
       return softening_displacement_.front();
-    }
-
-    /// Variable of softening at point @p p [-]: the column "softening", or the
-    /// plastic variable.
-    double
-    softening(const Points<dim> &points, const unsigned int p) const
-    {
-      return softens_by_displacement() ? points.data(softening_column_)[p]
-                                       : this->plastic_variable(points, p);
     }
 
     /// Throw ExcUser if @p is_given, for a softening displacement beside the
@@ -132,18 +127,12 @@ namespace talus
     double
     steepening_by_rate() const;
 
-    /// Throw ExcUser, naming the largest rate coefficient, if soil sheared
-    /// quickly would soften faster than it can unload elastically. Call at the
-    /// end of check().
-    void
-    check_rate_effect() const;
-
-    /// Young's modulus, Pa, from the ratio E/s_u if given.
+    /// Young's modulus, Pa; with a stiffness ratio per Pa of strength.
     double
     young_modulus() const override
     {
-      return stiffness_ratio_.empty() ? ElasticLaw<dim>::young_modulus()
-                                      : stiffness_ratio_.front() * strength();
+      return has_moduli_of_points() ? stiffness_ratio_.front()
+                                    : ElasticLaw<dim>::young_modulus();
     }
 
   private:
@@ -151,8 +140,12 @@ namespace talus
     virtual double
     shear_per_plastic_variable() const = 0;
 
-    StrengthColumns
-    strength_columns() const override;
+    /// Return the parameter, in words, that slows softening down by @p times.
+    virtual std::string
+    slower_softening(double times) const = 0;
+
+    StrengthOfPoints
+    strength_of(const Points<dim> &points) const override;
 
     unsigned int      strength_column_ = dealii::numbers::invalid_unsigned_int;
     UndrainedStrength strength_{"2500"};

@@ -96,16 +96,6 @@ namespace talus
   {
     RateLaw<dim, FlowRule>::check();
     strength_.variation().check(dim, this->section());
-    const bool needs_strength = !stiffness_ratio_.empty();
-    AssertThrow(strength() > 0. || (strength() == 0. && !needs_strength),
-                ExcUser(text("Section ",
-                             this->section(),
-                             ": `Undrained shear strength` is ",
-                             strength(),
-                             " Pa. Give a positive number",
-                             needs_strength
-                               ? "; the stiffness is proportional to it."
-                               : ", or 0.")));
   }
 
 
@@ -130,30 +120,35 @@ namespace talus
 
 
 
-  // The largest strength factor F is inversely proportional to
-  // steepening_by_rate(), 1 + m (...), and F is to be at least 1.
   template <int dim, typename FlowRule>
   void
-  UndrainedLaw<dim, FlowRule>::check_rate_effect() const
+  UndrainedLaw<dim, FlowRule>::check_strength(const StrengthRange &range) const
   {
-    const double factor = this->largest_strength_factor();
-    if (!has_rate_effect() || factor >= 1.)
-      return;
-    const double growth = steepening_by_rate();
-    const double largest =
-      rate_coefficient_ * std::max(factor * growth - 1., 0.) / (growth - 1.);
-    AssertThrow(false,
-                ExcUser(
-                  text("Section ",
-                       this->section(),
-                       ": `Rate coefficient` is ",
-                       rate_coefficient_,
-                       ", but quickly sheared material (up to ",
-                       internal::highest_shear_rate,
-                       " 1/s) must not soften faster than it can unload "
-                       "elastically. Give at most ",
-                       largest,
-                       ", or let the material soften over a larger strain.")));
+    AssertThrow(range.least > 0. || !has_moduli_of_points(),
+                ExcUser(text("Section ",
+                             this->section(),
+                             ": `Undrained shear strength` is ",
+                             range.least,
+                             " Pa, but the stiffness is proportional to it. "
+                             "Give a positive number.")));
+    const double largest = this->largest_strength_factor(range);
+    AssertThrow(
+      largest >= 1.,
+      ExcUser(text("Section ",
+                   this->section(),
+                   ": with `Undrained shear strength` of up to ",
+                   range.largest,
+                   " Pa the material would soften faster than it can unload "
+                   "elastically. Give ",
+                   softens_by_displacement()
+                     ? text("a `Softening displacement` of at least ",
+                            softening_displacement() / largest,
+                            " m, or a `Grid/Cell size` of at most ",
+                            largest * this->largest_cell_size(),
+                            " m")
+                     : slower_softening(1. / largest),
+                   has_rate_effect() ? ", a smaller `Rate coefficient`" : "",
+                   ", or more stiffness.")));
   }
 
 
@@ -163,11 +158,10 @@ namespace talus
   UndrainedLaw<dim, FlowRule>::add_columns(Points<dim> &points)
   {
     RateLaw<dim, FlowRule>::add_columns(points);
-    if (this->has_strength_column())
-      strength_column_ = points.add_column("undrained shear strength",
-                                           "Pa",
-                                           1,
-                                           Inheritance::copied);
+    strength_column_ = points.add_column("undrained shear strength",
+                                         "Pa",
+                                         1,
+                                         Inheritance::copied);
     if (!softens_by_displacement())
       return;
     softening_column_ =
@@ -178,21 +172,52 @@ namespace talus
 
 
 
-  // The shear across a band as wide as the cell, over the displacement.
   template <int dim, typename FlowRule>
-  StrengthColumns
-  UndrainedLaw<dim, FlowRule>::strength_columns() const
+  void
+  UndrainedLaw<dim, FlowRule>::initialize(Points<dim>       &points,
+                                          const unsigned int begin,
+                                          const unsigned int end) const
   {
-    StrengthColumns columns = {this->strength_factor(),
-                               this->has_strength_column()
-                                 ? strength_column_
-                                 : dealii::numbers::invalid_unsigned_int,
-                               has_moduli_of_points()};
-    if (softens_by_displacement())
-      columns.band = {softening_column_,
-                      cell_size_column_,
-                      shear_per_plastic_variable() / softening_displacement()};
-    return columns;
+    RateLaw<dim, FlowRule>::initialize(points, begin, end);
+    double *const strength = points.data(strength_column_);
+    std::fill(strength + begin,
+              strength + end,
+              strength_.number().value_or(0.));
+  }
+
+
+
+  // Softening by displacement is the shear across a band as wide as the cell,
+  // over the displacement.
+  template <int dim, typename FlowRule>
+  StrengthOfPoints
+  UndrainedLaw<dim, FlowRule>::strength_of(const Points<dim> &points) const
+  {
+    StrengthOfPoints strength = RateLaw<dim, FlowRule>::strength_of(points);
+    strength.strength.column  = points.data(strength_column_);
+    if (has_moduli_of_points())
+      strength.stiffness = strength.strength;
+    if (!softens_by_displacement())
+      return strength;
+    strength.cell_size.column = points.data(cell_size_column_);
+    strength.softening_rate =
+      shear_per_plastic_variable() / softening_displacement();
+    strength.softening_column = softening_column_;
+    return strength;
+  }
+
+
+
+  template <int dim, typename FlowRule>
+  double
+  UndrainedLaw<dim, FlowRule>::shear_strength(const Points<dim> &points,
+                                              const unsigned int p) const
+  {
+    return this->flow_rule(infinitely_slow)
+             .curve(this->softening(points, p),
+                    strength_of(points)(p, double()))
+             .strength /
+           shear_per_plastic_variable();
   }
 
 

@@ -31,7 +31,7 @@ namespace talus
     }
 
     /// Value of the entry, Pa, if it is a number.
-    const std::optional<double> &
+    std::optional<double>
     number() const;
 
     /// File name if the entry is a table; otherwise empty.
@@ -50,27 +50,16 @@ namespace talus
       return variation_;
     }
 
-    /// Return whether the strength may differ from point to point.
-    bool
-    varies() const
+    /// Strength of all points, Pa, if it is the same.
+    std::optional<double>
+    uniform() const
     {
-      return !number().has_value() || variation_.is_active();
-    }
-
-    /// Strength for the flow rule, Pa: the number, or 1 if a column has the
-    /// strength.
-    double
-    of_flow_rule() const
-    {
-      return varies() ? 1. : *number();
+      return variation_.is_active() ? std::nullopt : number();
     }
 
   private:
     std::string       words_;
     StrengthVariation variation_;
-    // Meaning of words_, cached by number().
-    mutable std::string           understood_;
-    mutable std::optional<double> number_;
   };
 
 

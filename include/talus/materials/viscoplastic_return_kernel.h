@@ -5,7 +5,6 @@
 #include <talus/base/simd_math.h>
 
 #include <limits>
-#include <type_traits>
 #include <utility>
 
 namespace talus
@@ -30,13 +29,13 @@ namespace talus
 
 
   /// Resistance to plastic shear in one step.
-  template <typename Modulus, typename Decay = double>
+  template <typename Modulus>
   struct ShearResistanceOf
   {
     Modulus modulus;     ///< elastic shear modulus G, Pa
     double  consistency; ///< K >= 0, Pa s^n
     double  exponent;    ///< n > 0 [-]
-    Decay   decay;       ///< rate of strength loss by remoulding, per plastic
+    Modulus decay;       ///< rate of strength loss by remoulding, per plastic
                          ///< shear strain; 0: no remoulding
     double dt;           ///< time step, s
   };
@@ -45,16 +44,12 @@ namespace talus
 
 
 
-  /// Whether soil does not remould: never, if the rate differs from point to
-  /// point.
+  /// Whether no point remoulds, which saves the exponentials.
   template <typename Decay>
   TALUS_ALWAYS_INLINE bool
   is_constant(const Decay &decay)
   {
-    if constexpr (std::is_same_v<Decay, double>)
-      return decay == 0.;
-    else
-      return false;
+    return !any(decay > Decay(0.));
   }
 
 
@@ -100,12 +95,12 @@ namespace talus
 
   /// Shear stress taken up by a plastic shear @p x without viscosity, Pa, and
   /// its slope: @p linear x - loss (1 - exp(-decay x)).
-  template <typename Number, typename Linear, typename Decay>
+  template <typename Number, typename Modulus>
   TALUS_ALWAYS_INLINE std::pair<Number, Number>
-                      stress_taken(const Number x,
-                                   const Number loss,
-                                   const Linear linear,
-                                   const Decay  decay)
+                      stress_taken(const Number  x,
+                                   const Number  loss,
+                                   const Modulus linear,
+                                   const Modulus decay)
   {
     if (is_constant(decay))
       return {linear * x, Number(linear)};
@@ -117,12 +112,12 @@ namespace talus
 
   /// Upper bound of the shear at which stress_taken() equals @p excess, as the
   /// function is above its tangent at zero and above its asymptote.
-  template <typename Number, typename Linear, typename Decay>
+  template <typename Number, typename Modulus>
   TALUS_ALWAYS_INLINE Number
-  max_shear(const Number excess,
-            const Number loss,
-            const Linear linear,
-            const Decay  decay)
+  max_shear(const Number  excess,
+            const Number  loss,
+            const Modulus linear,
+            const Modulus decay)
   {
     return min(excess / (linear - decay * loss),
                (excess + loss) * (1. / linear));
@@ -132,13 +127,13 @@ namespace talus
 
   /// Solve plastic_shear() for the shear if n > 1 or if the viscous resistance
   /// is part of @p linear.
-  template <typename Number, typename Mask, typename Modulus, typename Decay>
+  template <typename Number, typename Mask, typename Modulus>
   TALUS_ALWAYS_INLINE Number
-  solve_for_shear(const Number                             excess,
-                  const Number                             loss,
-                  const Mask                               yields,
-                  const Modulus                            linear,
-                  const ShearResistanceOf<Modulus, Decay> &r)
+  solve_for_shear(const Number                      excess,
+                  const Number                      loss,
+                  const Mask                        yields,
+                  const Modulus                     linear,
+                  const ShearResistanceOf<Modulus> &r)
   {
     const bool is_power = (r.exponent > 1. && r.consistency > 0.);
     Number     start    = max_shear(excess, loss, linear, r.decay);
@@ -172,12 +167,12 @@ namespace talus
 
 
   /// Solve plastic_shear() for the overstress y if n < 1; x is the shear.
-  template <typename Number, typename Mask, typename Modulus, typename Decay>
+  template <typename Number, typename Mask, typename Modulus>
   TALUS_ALWAYS_INLINE Number
-  solve_for_overstress(const Number                             excess,
-                       const Number                             loss,
-                       const Mask                               yields,
-                       const ShearResistanceOf<Modulus, Decay> &r)
+  solve_for_overstress(const Number                      excess,
+                       const Number                      loss,
+                       const Mask                        yields,
+                       const ShearResistanceOf<Modulus> &r)
   {
     const double q          = 1. / r.exponent;
     const auto   resistance = [&](const Number x, const Number y) {
@@ -228,11 +223,11 @@ namespace talus
   /// @param loss Strength that further remoulding can remove, Pa; G > decay
   ///   loss.
   /// @param r Resistance to shear.
-  template <typename Number, typename Modulus = double, typename Decay = double>
+  template <typename Number, typename Modulus = double>
   TALUS_ALWAYS_INLINE Number
-  plastic_shear(const Number                             excess,
-                const Number                             loss,
-                const ShearResistanceOf<Modulus, Decay> &r)
+  plastic_shear(const Number                      excess,
+                const Number                      loss,
+                const ShearResistanceOf<Modulus> &r)
   {
     const auto yields     = (excess > Number(0.));
     const bool is_viscous = (r.consistency > 0.);

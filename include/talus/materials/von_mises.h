@@ -30,11 +30,7 @@ namespace talus
     check_strength(const StrengthRange &range) const override;
 
     double
-    largest_strength_factor(const StrengthRange &range = {1.,
-                                                          1.}) const override;
-
-    double
-    shear_strength(const Points<dim> &points, unsigned int p) const override;
+    largest_strength_factor(const StrengthRange &range) const override;
 
     bool
     softens() const override;
@@ -50,11 +46,11 @@ namespace talus
     double
     shear_per_plastic_variable() const override;
 
+    std::string
+    slower_softening(double times) const override;
+
     VonMisesFlow
     flow_rule(double dt) const override;
-
-    double
-    strength_without_factor(const Points<dim> &points, unsigned int p) const;
 
     double hardening_         = 0.;
     double residual_strength_ = 0.;

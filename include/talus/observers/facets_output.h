@@ -2,7 +2,7 @@
 #ifndef talus_observers_facets_output_h
 #define talus_observers_facets_output_h
 
-#include <talus/contact/facet_contact.h>
+#include <talus/contact/contact.h>
 #include <talus/observers/series_observer.h>
 
 namespace talus
@@ -20,7 +20,7 @@ namespace talus
   {
   public:
     /// @p contact must outlive the observer.
-    explicit FacetsOutput(const FacetContact<dim> &contact)
+    explicit FacetsOutput(const Contact<dim> &contact)
       : SeriesObserver<dim>("facets")
       , contact_(contact)
     {}
@@ -44,7 +44,7 @@ namespace talus
     }
 
   private:
-    const FacetContact<dim> &contact_;
+    const Contact<dim> &contact_;
   };
 } // namespace talus
 

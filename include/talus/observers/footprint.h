@@ -3,7 +3,7 @@
 #define talus_observers_footprint_h
 
 #include <talus/base/quantity.h>
-#include <talus/contact/facet_contact.h>
+#include <talus/contact/contact.h>
 #include <talus/state/state.h>
 
 namespace talus
@@ -15,10 +15,10 @@ namespace talus
   /// seabed and obstacles both areas are 0. Collective.
   template <int dim>
   void
-  list_contact_area(const State<dim>        &state,
-                    const Boundaries<dim>   &boundaries,
-                    const FacetContact<dim> &contact,
-                    Quantities              &row);
+  list_contact_area(const State<dim>      &state,
+                    const Boundaries<dim> &boundaries,
+                    const Contact<dim>    &contact,
+                    Quantities            &row);
 } // namespace talus
 
 #endif

@@ -16,13 +16,13 @@ namespace talus
   struct OutputSettings
   {
     std::filesystem::path folder;
-    std::string           format          = "vtu"; ///< see make_field_writer()
     bool                  boxes_as_cells  = false;
     bool                  write_points    = true;
     bool                  write_grid      = true;
     bool                  write_obstacles = true;
     bool                  write_runout    = true;
     double                averaging_time  = 0.1; ///< window for forces, s
+    double                plan_interval   = 0;   ///< s; 0: no series
   };
 
 

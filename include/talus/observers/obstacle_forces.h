@@ -2,7 +2,7 @@
 #ifndef talus_observers_obstacle_forces_h
 #define talus_observers_obstacle_forces_h
 
-#include <talus/contact/facet_contact.h>
+#include <talus/contact/contact.h>
 #include <talus/observers/reaction_table.h>
 
 #include <vector>
@@ -15,7 +15,7 @@ namespace talus
   class ObstacleForces : public ReactionTable<dim>
   {
   public:
-    explicit ObstacleForces(const FacetContact<dim> &contact)
+    explicit ObstacleForces(const Contact<dim> &contact)
       : ReactionTable<dim>("obstacles.csv", "obstacle")
       , contact_(contact)
     {}
@@ -61,7 +61,7 @@ namespace talus
                      const State<dim>  &state,
                      Quantities        &row) const;
 
-    const FacetContact<dim> &contact_;
+    const Contact<dim> &contact_;
   };
 } // namespace talus
 

@@ -7,21 +7,68 @@
 #include <talus/io/log.h>
 #include <talus/io/output_folder.h>
 #include <talus/observers/observer.h>
-#include <talus/observers/output_times.h>
 #include <talus/observers/progress.h>
 #include <talus/observers/statistics.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace talus
 {
+  /// Output times k * interval, k = 1, 2, ...: output is due at the first step
+  /// that reaches an output time; the time step is not adjusted. The next
+  /// multiple follows from the time alone, without any tolerance: a restart
+  /// does not change the output times, and rounding errors do not accumulate.
+  class OutputTimes
+  {
+  public:
+    /// Start after an output at @p time, s; the next output is due after at
+    /// most @p interval, s. Without an interval, 0, no output is ever due.
+    void
+    begin(const double interval, const double time)
+    {
+      interval_ = interval;
+      advance(time);
+    }
+
+    /// Return true, once, when @p time has reached the next output time. A step
+    /// that passes several output times counts once.
+    bool
+    reached(const double time)
+    {
+      if (!(time >= next_ * interval_))
+        return false;
+      advance(time);
+      return true;
+    }
+
+  private:
+    /// Set the next output time to the smallest multiple beyond @p time.
+    void
+    advance(const double time)
+    {
+      next_ = std::floor(time / interval_);
+      // The quotient is rounded: the correct multiple may be one lower or
+      // higher.
+      while (next_ * interval_ > time)
+        --next_;
+      while (next_ * interval_ <= time)
+        ++next_;
+    }
+
+    double interval_ = 1.; // s
+    double next_     = 1.; // a whole number
+  };
+
+
+
   /// All output of a run, in one folder (parameters.prm, log.txt,
-  /// statistics.csv, profile.csv, points.pvd and grid.pvd with VTU files, or
-  /// .xdmf with HDF5 files), and the progress on the terminal.
+  /// statistics.csv, profile.csv, points.pvd and grid.pvd with VTU files), and
+  /// the progress on the terminal.
   ///
   /// Rows and fields are written at the start, at the first step that reaches
   /// each multiple of the interval (see OutputTimes) and at the last step.
@@ -55,6 +102,13 @@ namespace talus
     add_field_observer(std::unique_ptr<Observer<dim>> observer)
     {
       fields_.observers.push_back(std::move(observer));
+    }
+
+    /// Add an observer called at multiples of `Plan interval`.
+    void
+    add_plan_observer(std::unique_ptr<Observer<dim>> observer)
+    {
+      plan_.observers.push_back(std::move(observer));
     }
 
     /// Write to @p folder, overriding the parameter file. Call after parsing.
@@ -157,8 +211,8 @@ namespace talus
     bool
     observe(const State<dim> &state, bool last);
 
-    /// Write the points with a failure mechanism to NAME.pvd and its files (or
-    /// .xdmf). Collective.
+    /// Write the points with a failure mechanism to NAME.pvd and its files.
+    /// Collective.
     ///
     /// @param state of the run
     /// @param name of the series of files
@@ -200,6 +254,7 @@ namespace talus
 
     Schedule         rows_{0.25, {}, 0, {}};
     Schedule         fields_{1., {}, 0, {}};
+    Schedule         plan_{0., {}, 0, {}};
     Statistics<dim> *statistics_; ///< owned by rows_
     PhaseTimer      &timer_;
     Log             &log_;

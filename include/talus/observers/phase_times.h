@@ -3,6 +3,8 @@
 #define talus_observers_phase_times_h
 
 #include <talus/base/phase_timer.h>
+#include <talus/grid/node_numbering.h>
+#include <talus/observers/progress.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -16,6 +18,15 @@ namespace talus
   /// Collective; the lines are valid on all ranks.
   std::vector<std::string>
   phase_times(const PhaseTimer &timer, MPI_Comm communicator);
+
+  /// Report lines that tell why a run is slow: number of point-steps, time of
+  /// a point-step, imbalance, and messages between the ranks. Collective; the
+  /// lines are valid on all ranks.
+  std::vector<std::string>
+  work_of_ranks(const PhaseTimer &timer,
+                const Progress   &progress,
+                const SentByRank &sent,
+                MPI_Comm          communicator);
 } // namespace talus
 
 #endif

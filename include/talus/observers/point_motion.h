@@ -8,12 +8,13 @@
 
 namespace talus
 {
-  /// Smallest x of a point, m, for which the points with x not larger have at
-  /// least the share @p fraction [-] of the total mass. NaN without points.
-  /// Collective over @p communicator.
+  /// Smallest coordinate along @p axis of a point, m, for which the points with
+  /// no larger coordinate have at least the share @p fraction [-] of the total
+  /// mass. NaN without points. Collective over @p communicator.
   template <int dim>
   double
   front_of_mass(const Points<dim> &points,
+                unsigned int       axis,
                 double             fraction,
                 MPI_Comm           communicator);
 

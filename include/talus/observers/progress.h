@@ -33,6 +33,20 @@ namespace talus
       now_.point_steps += n_points;
     }
 
+    /// Number of steps since begin().
+    double
+    n_steps() const
+    {
+      return now_.steps;
+    }
+
+    /// Sum over the steps of the points on the local rank.
+    double
+    n_point_steps() const
+    {
+      return now_.point_steps;
+    }
+
     /// Print time, share of the end time, steps and point-steps per second
     /// since the previous line, remaining wall time at the current pace, and
     /// number of points. Prints only on a terminal. Collective.

@@ -9,8 +9,7 @@
 
 namespace talus
 {
-  /// Observer with a series of files in a format of FieldWriter. A derived
-  /// class provides the content.
+  /// Observer with a series of VTU files. A derived class provides the content.
   template <int dim>
   class SeriesObserver : public Observer<dim>
   {
@@ -25,11 +24,7 @@ namespace talus
           const State<dim>     &state,
           const Beginning       beginning = Beginning::fresh) override
     {
-      series_.begin(settings.folder,
-                    name_,
-                    state.communicator(),
-                    settings.format,
-                    beginning);
+      series_.begin(settings.folder, name_, state.communicator(), beginning);
     }
 
     void
@@ -41,7 +36,7 @@ namespace talus
     std::vector<std::string>
     missing_files(const OutputSettings &settings) const override
     {
-      return series_.missing_files(settings.folder, name_, settings.format);
+      return series_.missing_files(settings.folder, name_);
     }
 
     void

@@ -4,8 +4,6 @@
 
 #include <talus/base/quantity.h>
 #include <talus/contact/obstacles.h>
-#include <talus/observers/energy_budget.h>
-#include <talus/observers/seabed_force.h>
 #include <talus/observers/table_observer.h>
 #include <talus/state/state.h>
 
@@ -15,6 +13,61 @@
 
 namespace talus
 {
+  /// Force of the seabed on the soil along x, N: mean since the last restart().
+  /// The force of a single step tells little.
+  template <int dim>
+  class SeabedForce
+  {
+  public:
+    /// Begin a new mean at the time of @p state. Collective.
+    void
+    restart(const State<dim> &state);
+
+    /// Append the mean force, N, and the impulse since the start, N s.
+    /// Collective.
+    void
+    list_quantities(const State<dim> &state, Quantities &list) const;
+
+    void
+    list_state(StateList &list);
+
+  private:
+    double previous_time_    = 0; // s
+    double previous_impulse_ = 0; // N s
+  };
+
+
+
+  /// Energy budget of the run over all ranks, J; in 2-D J per metre width:
+  ///   remainder = energy supplied - energy taken - change of energy stored.
+  /// Every term counts from the start of the motion. The points store kinetic
+  /// energy, elastic energy and plastic work; State::accounts has all other
+  /// terms, such as the work of gravity. The budget uses the kinetic energy of
+  /// the points, so the remainder contains the dissipation of the transfer. A
+  /// negative remainder is energy made from nothing.
+  template <int dim>
+  class EnergyBudget
+  {
+  public:
+    /// Begin the budget at @p state. Collective.
+    void
+    begin(const State<dim> &state);
+
+    /// Return the terms, the kinetic energy of the background grid (no part of
+    /// the budget), and the remainder. Collective.
+    Quantities
+    evaluate(const State<dim> &state) const;
+
+    /// Add the terms at the start to the state of the run.
+    void
+    list_state(StateList &list);
+
+  private:
+    std::vector<double> start_; ///< terms at the start, J
+  };
+
+
+
   /// statistics.csv: one row of global quantities per output time, for plots
   /// and tests. Positions and speeds belong to the centres of the points;
   /// quantities of 2-D runs are per metre width.

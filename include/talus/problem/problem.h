@@ -4,7 +4,7 @@
 
 #include <talus/boundaries/boundaries.h>
 #include <talus/boundaries/damping.h>
-#include <talus/contact/facet_contact.h>
+#include <talus/contact/contact.h>
 #include <talus/interaction/nodal_interactions.h>
 #include <talus/problem/bodies.h>
 #include <talus/problem/inputs.h>
@@ -85,10 +85,6 @@ namespace talus
     /// Return for each body whether the dilatation is averaged over the cells.
     std::vector<bool>
     bodies_with_bbar() const;
-
-    /// Return whether a body is made of a hyperelastic law.
-    bool
-    has_hyperelastic_body() const;
 
     /// Return whether soil can slide on a surface: a seabed face, or an
     /// obstacle.
@@ -203,7 +199,7 @@ namespace talus
     /// the list that are used directly.
     NodalInteractions<dim> interactions;
     Boundaries<dim>       &boundaries;
-    FacetContact<dim>     &contact; ///< contact with obstacles
+    Contact<dim>          &contact; ///< contact with obstacles
     Damping<dim>          &damping;
     Water<dim>            &water;
     Hydroplaning<dim>     &hydroplaning;

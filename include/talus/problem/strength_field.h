@@ -4,8 +4,11 @@
 
 #include <talus/io/input_file.h>
 #include <talus/materials/materials.h>
+#include <talus/materials/strength_variation.h>
 #include <talus/problem/body.h>
 #include <talus/problem/inputs.h>
+
+#include <deal.II/base/point.h>
 
 #include <filesystem>
 #include <memory>
@@ -13,11 +16,38 @@
 
 namespace talus
 {
+  /// A realization of a lognormal random field of mean 1: a function of the
+  /// place, independent of mesh, ranks and the order of evaluation. The
+  /// logarithm is a sum of cosines with random wave vectors and phases
+  /// (spectral representation, @cite shinozuka1991).
+  template <int dim>
+  class RandomField
+  {
+  public:
+    explicit RandomField(const StrengthVariation &variation);
+
+    /// Return the value at @p x, m [-].
+    double
+    operator()(const dealii::Point<dim> &x) const;
+
+  private:
+    struct Wave
+    {
+      dealii::Tensor<1, dim> vector; ///< 1/m
+      double                 phase;  ///< rad
+    };
+
+    double            deviation_; ///< standard deviation of the logarithm [-]
+    std::vector<Wave> waves_;
+  };
+
+
+
   /// Set the column `undrained shear strength` of all points, if there is one:
   /// by the number, the expression of place and depth, or the table of the
   /// material of each body, times the random field of the material. Throws
-  /// ExcUser if the strength of a point is not positive, or softening is too
-  /// fast for the stiffness. Collective.
+  /// ExcUser if the strength of a point is not positive (the number 0 is
+  /// allowed), or softening is too fast for the stiffness. Collective.
   /// @param inputs constants, surfaces, and the folder of the tables
   /// @param domain domain of the mesh
   template <int dim>

@@ -5,7 +5,6 @@
 #include <talus/adaptivity/load_balance.h>
 #include <talus/adaptivity/mesh_tracking.h>
 #include <talus/base/phase_timer.h>
-#include <talus/checkpoint/checkpoint_content.h>
 #include <talus/io/log.h>
 #include <talus/problem/problem.h>
 #include <talus/state/state.h>
@@ -41,13 +40,10 @@ namespace talus
     /// Create the mesh of a checkpoint and load the points. The partition is
     /// restored if the number of ranks is unchanged.
     ///
-    /// @param mesh path of the saved mesh
-    /// @param file with the points
-    /// @param head of the checkpoint
+    /// @param path of the saved mesh
+    /// @param n_ranks_then number of ranks that saved the mesh
     void
-    load(const std::string    &mesh,
-         Hdf5InputFile        &file,
-         const CheckpointHead &head);
+    load(const std::string &path, unsigned int n_ranks_then);
 
     /// Sort newly created points, at any position, into the cells.
     void
@@ -66,11 +62,6 @@ namespace talus
     /// have left the cell.
     void
     relocate();
-
-    /// Sort all points after large motion, possibly beyond neighbouring cells.
-    /// Collective.
-    void
-    relocate_all();
 
     /// Weights of the owned cells at the last repartition [-].
     std::vector<double>
@@ -98,8 +89,6 @@ namespace talus
     prepare_nodes();
     bool
     share_out();
-    void
-    restore_partition(Hdf5InputFile &file);
     void
     activate_nodes();
 

@@ -15,8 +15,9 @@ namespace talus
   /// Detects whether a slide has come to rest. Soil is at rest if two
   /// conditions hold for `Rest/Duration`: the kinetic energy of the background
   /// grid is below `Rest/Kinetic energy ratio` times its maximum so far, and
-  /// the outermost points move in plan by less than a fiftieth of the smallest
-  /// cell. Soil without an overall displacement of at least a cell is not a
+  /// the ends of 99.9 % of the mass in plan move by less than a fiftieth of the
+  /// smallest cell. Outer points of hardly any mass may creep on, and are
+  /// reported. Soil without an overall displacement of at least a cell is not a
   /// slide and never counts as at rest, such as a settling column or a
   /// vibrating bar. If all points have left the mesh, the slide is at rest. The
   /// state is checked ten times per `Duration`.
@@ -54,15 +55,20 @@ namespace talus
     list_state(StateList &list);
 
   private:
-    /// Minimum and maximum coordinates of points in plan, m.
+    /// Ends of a share of the mass in plan, m.
     using Extent = Box<dim>;
 
     bool
     has_slid(const State<dim> &state) const;
     Extent
-    extent_in_plan(const State<dim> &state) const;
+    extent_in_plan(const State<dim> &state, double share) const;
     bool
-    has_kept_still(const Extent &extent, double length) const;
+    has_kept_still(const Extent &before,
+                   const Extent &extent,
+                   double        length) const;
+
+    std::string
+    stragglers() const;
 
     // Parameters
     double ratio_    = 1e-3;
@@ -72,7 +78,9 @@ namespace talus
     double peak_energy_ = 0.; ///< maximum kinetic energy of the grid, J
     double energy_      = 0.; ///< grid energy at the last check, J
     double quiet_since_ = std::numeric_limits<double>::max(); ///< time, s
-    Extent extent_; ///< at the time quiet_since_
+    Extent extent_;    ///< ends of nearly all mass at the time quiet_since_
+    Extent outermost_; ///< ends of all mass at the time quiet_since_
+    bool   creeps_     = false; ///< whether outer points move on
     bool   has_slid_   = false;
     bool   has_left_   = false;
     bool   is_at_rest_ = false;

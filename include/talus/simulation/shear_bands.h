@@ -4,12 +4,39 @@
 
 #include <talus/observers/table_observer.h>
 #include <talus/problem/problem.h>
+#include <talus/state/state.h>
 
 #include <string>
 #include <vector>
 
 namespace talus
 {
+  /// Extent in plan of a body and of its yielded soil, by columns of cells of
+  /// size h: m in 2-D, m^2 in 3-D. A column counts if it holds one such point.
+  struct YieldedExtent
+  {
+    double all      = 0.;
+    double yielded  = 0.; ///< with plastic flow
+    double residual = 0.; ///< with 95 % of the strength loss
+  };
+
+  /// Measure body number @p body. Collective.
+  template <int dim>
+  YieldedExtent
+  yielded_extent(const State<dim>   &state,
+                 const Problem<dim> &problem,
+                 unsigned int        body);
+
+  /// Return sentences on softening, for a search without balance: how much of
+  /// each softening body has yielded in plan, by cells of size h, and over how
+  /// much of softening surfaces soil has slipped. Empty if nothing has.
+  /// Collective.
+  template <int dim>
+  std::string
+  note_on_softening(const State<dim> &state, const Problem<dim> &problem);
+
+
+
   /// Table bands.csv: how far the soil of each softening body has yielded, a
   /// row per time of statistics.csv. Only if a body softens.
   template <int dim>

@@ -164,7 +164,7 @@ namespace talus
     }
 
     /// Obstacles and the forces of the soil on them.
-    const FacetContact<dim> &
+    const Contact<dim> &
     contact() const
     {
       return problem_.contact;
@@ -183,6 +183,8 @@ namespace talus
     }
 
   private:
+    void
+    add_observers();
     void
     prepare();
     void

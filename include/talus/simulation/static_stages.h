@@ -2,13 +2,17 @@
 #ifndef talus_simulation_static_stages_h
 #define talus_simulation_static_stages_h
 
+#include <talus/equilibrium/equilibrium.h>
 #include <talus/equilibrium/strength_reduction.h>
+#include <talus/io/log.h>
 #include <talus/observers/output.h>
 #include <talus/simulation/failure_depth.h>
+#include <talus/simulation/newton_table.h>
 #include <talus/simulation/stages.h>
-#include <talus/simulation/static_solver.h>
+#include <talus/transfer/transfer.h>
 
 #include <string>
+#include <vector>
 
 namespace talus
 {
@@ -22,7 +26,6 @@ namespace talus
     StaticStages(State<dim>          &state,
                  Problem<dim>        &problem,
                  const Transfer<dim> &transfer,
-                 BackgroundMesh<dim> &mesh,
                  const Output<dim>   &output,
                  Log                 &log);
 
@@ -72,7 +75,7 @@ namespace talus
     const Equilibrium<dim> &
     equilibrium() const
     {
-      return solver_.equilibrium();
+      return equilibrium_;
     }
 
     const StrengthReduction &
@@ -85,8 +88,35 @@ namespace talus
     list_state(StateList &list);
 
   private:
+    /// State of points and contact, modified by a search.
+    struct Saved
+    {
+      std::vector<std::vector<double>> columns; ///< columns of the points
+      StaticContact<dim>               contact;
+      std::vector<double>              facet_forces;
+      std::vector<double>              slip; ///< BedSlip::rows()
+    };
+
+    Saved
+    save() const;
+
+    /// Restore a state in place: same points in the same order as at save().
     void
-    find_equilibrium(const typename StaticSolver<dim>::Saved &before);
+    restore(const Saved &saved);
+
+    StaticProblem<dim>
+    problem();
+
+    /// Search for balance, starting from the current state without loads.
+    /// Returns false if there is no balance, or if a signal to any rank stops
+    /// the search. Collective.
+    bool
+    solve(const StaticOptions &options, const SearchLabel &label);
+
+    void
+    begin_stage();
+    void
+    find_equilibrium(const Saved &before);
     void
     tell_of_well_balanced_load() const;
     void
@@ -94,33 +124,35 @@ namespace talus
     [[noreturn]] void
     throw_no_equilibrium(const std::string &sentence) const;
     void
-    find_equilibrium_with_more_strength(
-      const typename StaticSolver<dim>::Saved &before);
-    StrainMeasure
-    measure_of_stronger_soil() const;
+    find_equilibrium_with_more_strength(const Saved &before);
+    std::string
+    no_equilibrium() const;
     void
     divide_strength(double factor);
     void
-    reduce_strength(const typename StaticSolver<dim>::Saved &before);
+    reduce_strength(const Saved &before);
     void
     search_factor();
     void
     start_reduction();
     void
-    undo_stage(const typename StaticSolver<dim>::Saved &before);
+    undo_stage(const Saved &before);
     bool
     is_stable_with(double factor);
     void
     write_mechanism(const std::string &name) const;
 
-    State<dim>        &state_;
-    Problem<dim>      &problem_;
-    const Output<dim> &output_;
-    Log               &log_;
-    Stages             stages_;
-    StaticSolver<dim>  solver_;
-    StrengthReduction  strength_reduction_;
-    FailureDepth<dim>  failure_depth_;
+    State<dim>          &state_;
+    Problem<dim>        &problem_;
+    const Transfer<dim> &transfer_;
+    const Output<dim>   &output_;
+    Log                 &log_;
+    Stages               stages_;
+    Equilibrium<dim>     equilibrium_;
+    NewtonTable          table_;
+    std::uintmax_t       n_table_bytes_ = 0; ///< at the beginning of the stage
+    StrengthReduction    strength_reduction_;
+    FailureDepth<dim>    failure_depth_;
 
     /// The soil is in balance with strengths divided by this factor [-]: 1, or
     /// less if the soil does not stand with the actual strength.

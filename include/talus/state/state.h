@@ -3,12 +3,32 @@
 #define talus_state_state_h
 
 #include <talus/state/accounts.h>
-#include <talus/state/run_constants.h>
+#include <talus/transfer/box_shape.h>
 #include <talus/transfer/outflow.h>
 #include <talus/transfer/step_context.h>
 
+#include <deal.II/base/tensor.h>
+
+#include <vector>
+
 namespace talus
 {
+  /// Constants of a run, which follow from parameters and initial mesh.
+  template <int dim>
+  struct RunConstants
+  {
+    BoxShape box_shape; ///< how the boxes of the points deform
+    /// Maximum mass of a node without momentum, kg.
+    double mass_cutoff = 0;
+    /// Mass of water that moves with the soil divided by the mass of the soil
+    /// [-], by body; empty without added mass.
+    std::vector<double> added_mass;
+    /// Acceleration of gravity at full load, m/s^2.
+    dealii::Tensor<1, dim> gravity;
+  };
+
+
+
   /// State of a simulation: everything that a step changes. Points, accounts
   /// and counts are the share of this rank; observers sum over the ranks.
   /// Between two steps the points are sorted by cell. The nodal fields are left

@@ -9,6 +9,15 @@
 
 namespace talus
 {
+  /// Replace each value of @p raster by the mean over the square of @p width,
+  /// m, around it; a raster with cells wider than half of the square stays as
+  /// it is. Near edges and missing values
+  /// the square shrinks to equal arms, so that a plane is kept everywhere.
+  void
+  smooth(Raster &raster, double width);
+
+
+
   /// Project @p raster to square cells on the map with the code @p map
   /// (EPSG:32633). A raster without coordinate system is in longitude and
   /// latitude (WGS 84). The value of a new cell is the height of the cubic

@@ -22,11 +22,11 @@ namespace talus
     /// Whether shear lengthens edges without end. Otherwise long edges are
     /// replaced by shorter edges of the same lattice, see reduce_edges().
     bool counts_shear = false;
-    /// Limits of the half length of a box in sizes of its cell [-]. The lower
-    /// limit keeps the step stable, the upper limit keeps the box within the
-    /// touching cells.
+    /// Lower limit of the half length of a box in sizes of its cell [-], which
+    /// keeps the step stable.
     double min_half = 0.1;
-    double max_half = 0.5;
+    /// Upper limit, which keeps the box within the touching cells [-].
+    static constexpr double max_half = 0.5;
   };
 } // namespace talus
 

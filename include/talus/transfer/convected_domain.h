@@ -29,9 +29,8 @@ namespace talus
     ///   which keeps the step stable. A side that moves outwards leaves the
     ///   planes of the other sides unchanged.
     /// - Along each axis of the mesh the domain is scaled about its centre, so
-    ///   that all corners lie in touching cells: with the default
-    ///   `Maximum half-size` no farther from the centre than the size of the
-    ///   smallest touching cell.
+    ///   that all corners lie in touching cells: no farther from the centre
+    ///   than the size of the smallest touching cell.
     ConvectedDomain(const Points<dim> &points,
                     const Grid<dim>   &grid,
                     const BoxShape    &shape,

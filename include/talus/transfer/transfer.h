@@ -26,10 +26,6 @@ namespace talus
   public:
     Transfer();
 
-    /// Throw ExcUser if parameters contradict each other.
-    void
-    check() const;
-
     /// Set for each body whether the cell averages of B-bar are used.
     void
     use_bbar(const std::vector<bool> &of_body)

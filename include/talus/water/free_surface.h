@@ -2,7 +2,7 @@
 #ifndef talus_water_free_surface_h
 #define talus_water_free_surface_h
 
-#include <talus/contact/facet_contact.h>
+#include <talus/contact/contact.h>
 #include <talus/state/state.h>
 #include <talus/surface/place_table.h>
 #include <talus/water/solid_at_nodes.h>
@@ -70,7 +70,7 @@ namespace talus
     /// of the points and the soil at obstacles. Call update_soil() afterwards.
     /// Collective.
     void
-    find(const State<dim> &state, const FacetContact<dim> &contact);
+    find(const State<dim> &state, const Contact<dim> &contact);
 
     /// Set velocity, shares and mobility of all facets by mass and velocity of
     /// the nodes after the momentum update. Collective.
@@ -156,9 +156,9 @@ namespace talus
     void
     clear_cells(const Grid<dim> &grid);
     void
-    fill_records(const State<dim> &state, const FacetContact<dim> &contact);
+    fill_records(const State<dim> &state, const Contact<dim> &contact);
     void
-    add_contact_areas(const FacetContact<dim> &contact);
+    add_contact_areas(const Contact<dim> &contact);
     void
     move_facets(const Grid<dim> &grid);
     void
@@ -196,6 +196,7 @@ namespace talus
     std::vector<unsigned char> is_node_of_facets_;   ///< by node
     std::vector<const HangingNode *> hanging_nodes_; ///< among nodes_of_facets_
     std::vector<unsigned int>        filled_nodes_;  ///< records may be nonzero
+    std::vector<unsigned int>        covered_nodes_; ///< by other ranks too
     std::vector<unsigned int>  soil_nodes_, previous_soil_nodes_; ///< f > 0
     std::vector<unsigned int>  listed_cells_;  ///< around soil_nodes_
     std::vector<unsigned int>  surface_cells_; ///< candidates for a facet

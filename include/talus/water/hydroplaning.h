@@ -2,7 +2,7 @@
 #ifndef talus_water_hydroplaning_h
 #define talus_water_hydroplaning_h
 
-#include <talus/contact/facet_contact.h>
+#include <talus/contact/contact.h>
 #include <talus/interaction/nodal_interaction.h>
 #include <talus/materials/materials.h>
 
@@ -39,7 +39,7 @@ namespace talus
     Hydroplaning(const Materials<dim>  &materials,
                  const Water<dim>      &water,
                  const Boundaries<dim> &boundaries,
-                 FacetContact<dim>     &contact);
+                 Contact<dim>          &contact);
 
     /// Whether the rule is switched on.
     bool
@@ -119,7 +119,7 @@ namespace talus
     const Materials<dim>  &materials_;
     const Water<dim>      &water_;
     const Boundaries<dim> &boundaries_;
-    FacetContact<dim>     &contact_;
+    Contact<dim>          &contact_;
 
     // Parameters
     double factor_   = 1.;

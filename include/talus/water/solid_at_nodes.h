@@ -2,7 +2,7 @@
 #ifndef talus_water_solid_at_nodes_h
 #define talus_water_solid_at_nodes_h
 
-#include <talus/contact/facet_contact.h>
+#include <talus/contact/contact.h>
 
 #include <vector>
 
@@ -22,7 +22,7 @@ namespace talus
     /// Update volume fractions, areas and distances to the current positions of
     /// the obstacles. Collective.
     void
-    update(const Grid<dim> &grid, const FacetContact<dim> &contact);
+    update(const Grid<dim> &grid, const Contact<dim> &contact);
 
     /// Whether the case has obstacles.
     bool
@@ -80,7 +80,7 @@ namespace talus
     };
 
     void
-    find_distances(const Grid<dim> &grid, const FacetContact<dim> &contact);
+    find_distances(const Grid<dim> &grid, const Contact<dim> &contact);
 
     bool                is_known_ = false;
     bool                exists_   = false;

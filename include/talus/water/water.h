@@ -22,7 +22,7 @@ namespace talus
   {
   public:
     /// Obstacles of @p contact bound the soil; @p materials give the densities.
-    Water(const Materials<dim> &materials, const FacetContact<dim> &contact);
+    Water(const Materials<dim> &materials, const Contact<dim> &contact);
 
     /// Whether any effect of water is switched on.
     bool
@@ -84,8 +84,8 @@ namespace talus
     void
     add_inertia(NodalFields<dim> &nodes) const;
 
-    const Materials<dim>    &materials_;
-    const FacetContact<dim> &contact_;
+    const Materials<dim> &materials_;
+    const Contact<dim>   &contact_;
 
     double density_       = 1000.;
     double added_mass_    = 0.;

@@ -5,7 +5,7 @@
     python3 read_run.py DIR
 
 prints a few results of the run in DIR and draws them into read_run.png. Copy what is needed;
-it needs Debian's packages python3-numpy and python3-matplotlib (python3-h5py for HDF5).
+it needs Debian's packages python3-numpy and python3-matplotlib.
 """
 
 import os

@@ -8,8 +8,8 @@ import numpy
 
 from talus_tools.errors import UserError
 from talus_tools.esri import read_grid
-from talus_tools.hdf5 import Hdf5Series, h5py
 from talus_tools.parameters import read_parameters
+from talus_tools.plan import PlanSeries
 from talus_tools.tables import find_column, read_lines, read_table
 from talus_tools.vtu import VtuSeries
 
@@ -95,14 +95,16 @@ class Results:
             raise UserError(f"'{self.folder}' has no table 'lines.csv'.")
         return read_lines(self.path("lines.csv"))
 
+    def plan(self):
+        """The series plan.csv: soil by column and time; plan().history(east, north)."""
+        return PlanSeries(self)
+
     def series(self, name):
-        """Fields by time, of VTU or HDF5 files; None where there are none that can be read."""
-        kinds = {".pvd": VtuSeries} | ({".xdmf": Hdf5Series} if h5py else {})
-        for ending, kind in kinds.items():
-            if self.has(name + ending):
-                series = kind(self.path(name + ending))
-                return series if len(series.times) else None
-        return None
+        """Fields by time; None where there are none."""
+        if not self.has(name + ".pvd"):
+            return None
+        series = VtuSeries(self.path(name + ".pvd"))
+        return series if len(series.times) else None
 
     def times(self, name="points"):
         """Times of the outputs of the points, the grid, the obstacles or the facets [s]."""
@@ -114,8 +116,7 @@ class Results:
         [s]; by default the last one."""
         series = self.series(name)
         if series is None:
-            raise UserError(f"'{self.folder}' has no fields '{name}.pvd' or '{name}.xdmf' with an "
-                            "output (.xdmf needs Debian's package python3-h5py).")
+            raise UserError(f"'{self.folder}' has no fields '{name}.pvd' with an output.")
         nearest = series.times[-1] if time == numpy.inf else series.nearest(time)
         return Fields(self.path(name), nearest, *series.read(nearest))
 

@@ -63,12 +63,15 @@ def read_vtu(path):
             {name: numpy.concatenate(parts) for name, parts in values.items()})
 
 
-class FileSeries:
-    """Files by time; those of several ranks belong together."""
+class VtuSeries:
+    """The files of a .pvd by time."""
 
-    def __init__(self):
+    def __init__(self, path):
         self.files = {}
-        self.times = numpy.empty(0)
+        for entry in parse(path).iter("DataSet"):
+            file = os.path.join(os.path.dirname(path), entry.get("file"))
+            self.files.setdefault(float(entry.get("timestep")), []).extend(self.parts(file))
+        self.times = numpy.array(sorted(self.files))
 
     def nearest(self, time):
         """The time of the series that is nearest to this one."""
@@ -76,29 +79,17 @@ class FileSeries:
 
     def read(self, time):
         """Vertices of the cells, shape (cells, vertices, 3), and their values by name."""
-        parts = [part for part in map(self.read_file, self.files[time]) if len(part[0])]
+        parts = [part for part in map(read_vtu, self.files[time]) if len(part[0])]
         if not parts:
             return numpy.empty((0, 1, 3)), {}
         return (numpy.concatenate([part[0] for part in parts]),
                 {name: numpy.concatenate([part[1][name] for part in parts])
                  for name in parts[0][1]})
 
-
-class VtuSeries(FileSeries):
-    """The files of a .pvd by time."""
-
-    def __init__(self, path):
-        super().__init__()
-        for entry in parse(path).iter("DataSet"):
-            file = os.path.join(os.path.dirname(path), entry.get("file"))
-            self.files.setdefault(float(entry.get("timestep")), []).extend(self.parts(file))
-        self.times = numpy.array(sorted(self.files))
-
-    read_file = staticmethod(read_vtu)
-
     @staticmethod
     def parts(file):
-        """The pieces of a file that stands for several."""
+        """The pieces of a file that stands for several, as earlier versions of talus wrote on
+        several ranks."""
         if not file.endswith(".pvtu"):
             return [file]
         return [os.path.join(os.path.dirname(file), piece.get("Source"))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/boundaries/damping.h>
-#include <talus/contact/facet_contact.h>
+#include <talus/contact/contact.h>
 
 #include "ranks_setup.h"
 
@@ -61,7 +61,7 @@ namespace
     }
 
     Obstacles<2>                     obstacles{{}};
-    FacetContact<2>                  contact{obstacles, boundaries};
+    Contact<2>                       contact{obstacles, boundaries};
     const std::vector<unsigned char> feels_obstacle;
     Damping<2>                       damping{boundaries, feels_obstacle};
   };
@@ -189,7 +189,9 @@ namespace
         nodes.activate(grid, all);
         for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
           nodes.set_sums(node, 1., 0., Tensor<1, dim>(), Tensor<1, dim>());
-        core.boundaries.apply(nodes, grid, 0., step_length, 0.);
+        core.time_step = step_length;
+        core.boundaries.open_accounts(core.accounts);
+        core.boundaries.correct_velocities(core);
         for (const auto &cell : grid.dof_handler().active_cell_iterators())
           if (cell->is_locally_owned())
             for (const unsigned int v : cell->vertex_indices())

@@ -2,7 +2,7 @@
 #include "ranks_setup.h"
 #include "suites.h"
 
-#include <talus/contact/facet_impulses.h>
+#include <talus/contact/contact_impulses.h>
 #include <talus/contact/facets.h>
 #include <talus/geometry/open_surface.h>
 
@@ -398,9 +398,9 @@ TEST(Facets, OfSmallBodiesAreClosed)
 // Two facets of one obstacle in one cell do not mix up their impulses.
 TEST(Facets, KeepTheirImpulses)
 {
-  const Cut<2>     cut({"wall"}, notched);
-  FacetImpulses<2> given, later;
-  for (FacetImpulses<2> *const impulses : {&given, &later})
+  const Cut<2>       cut({"wall"}, notched);
+  ContactImpulses<2> given, later;
+  for (ContactImpulses<2> *const impulses : {&given, &later})
     impulses->update(keys_of(cut.facets.owned()));
   for (unsigned int i = 0; i < given.size(); ++i)
     given[i] = {1. + i, Tensor<1, 2>({0.5 * i, 2.}), 3. + i, 4. + i};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/contact/obstacle_sizes.h>
+#include <talus/contact/obstacle_remarks.h>
 
 #include "core_setup.h"
 #include "obstacles_setup.h"

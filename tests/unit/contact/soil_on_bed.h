@@ -2,7 +2,7 @@
 #ifndef talus_tests_unit_contact_soil_on_bed_h
 #define talus_tests_unit_contact_soil_on_bed_h
 
-#include <talus/contact/facet_contact.h>
+#include <talus/contact/contact.h>
 
 #include "equilibrium_setup.h"
 
@@ -111,12 +111,12 @@ namespace
           action(facet.node[v], grid.cells()[facet.cell].vertex(v));
     }
 
-    Facets<dim>           facets;
-    SoilAtPlaces<dim>     soil_at_places{obstacles, facets};
-    ContactNodes<dim>     contact_nodes{facets};
-    BedSlip<dim>          no_slip;
-    FaceNodes<dim>        face_nodes{this->boundaries};
-    FacetConstraints<dim> constraints{
+    Facets<dim>             facets;
+    SoilAtPlaces<dim>       soil_at_places{obstacles, facets};
+    ContactNodes<dim>       contact_nodes{facets};
+    BedSlip<dim>            no_slip;
+    FaceNodes<dim>          face_nodes{this->boundaries};
+    ContactConstraints<dim> constraints{
       obstacles, facets, face_nodes, contact_nodes, soil_at_places, no_slip};
   };
 

@@ -28,7 +28,7 @@ namespace
       upper[0] = end;
       this->fill(lower, upper, n);
       this->load(Tensor<1, dim>());
-      parts.emplace(*this, StrainMeasure::small, this->constants.mass_cutoff);
+      parts.emplace(*this, this->constants.mass_cutoff);
       ghost.find_faces(this->grid, parts->unknowns, penalty, shear_modulus);
     }
 

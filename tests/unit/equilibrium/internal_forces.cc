@@ -12,18 +12,6 @@ namespace
 
 
 
-  /// Three bodies; the third has a law that takes the strain measure only.
-  std::vector<MaterialName>
-  names(const StrainMeasure measure)
-  {
-    return {{"block", "linear elastic"},
-            {"clay", "von Mises"},
-            measure == StrainMeasure::small ? MaterialName{"mud", "Bingham"}
-                                            : MaterialName{"rubber", "Hencky"}};
-  }
-
-
-
   /// Points of three bodies in all states that their laws can be in, without
   /// load, on a uniform mesh and on one with hanging nodes; with and without
   /// B-bar.
@@ -31,41 +19,35 @@ namespace
   void
   on_all_states(const Action &action)
   {
-    for (const auto measure : {StrainMeasure::small, StrainMeasure::large})
-      for (const bool hanging_nodes : {false, true})
-        for (const bool mean : {true, false})
-          {
-            SCOPED_TRACE(text(dim,
-                              "-D, measure ",
-                              static_cast<int>(measure),
-                              ", hanging nodes ",
-                              hanging_nodes,
-                              ", mean ",
-                              mean));
-            Statics<dim> statics(cube<dim>(),
-                                 names(measure),
-                                 material("block", clay_constants) +
-                                   material("clay", clay_constants + weak) +
-                                   (measure == StrainMeasure::small
-                                      ? material("mud", clay_constants + weak)
-                                      : material("rubber", clay_constants)));
-            fill_with_points(statics, hanging_nodes);
-            statics.transfer.use_bbar({mean, false, mean});
-            statics.loads.varies = false;
-            statics.load(Tensor<1, dim>());
-            auto &points = statics.points;
-            statics.workspace.reinit(0, points.size());
-            for (unsigned int i = 0; i < dim; ++i)
-              for (unsigned int j = 0; j < dim; ++j)
-                std::fill_n(statics.workspace.velocity_gradient(i, j),
-                            points.size(),
-                            0.);
-            statics.materials.update_stress(points,
-                                            statics.workspace,
-                                            points.all(),
-                                            0.);
-            action(statics, measure);
-          }
+    for (const bool hanging_nodes : {false, true})
+      for (const bool mean : {true, false})
+        {
+          SCOPED_TRACE(
+            text(dim, "-D, hanging nodes ", hanging_nodes, ", mean ", mean));
+          Statics<dim> statics(cube<dim>(),
+                               {{"block", "linear elastic"},
+                                {"clay", "von Mises"},
+                                {"mud", "Bingham"}},
+                               material("block", clay_constants) +
+                                 material("clay", clay_constants + weak) +
+                                 material("mud", clay_constants + weak));
+          fill_with_points(statics, hanging_nodes);
+          statics.transfer.use_bbar({mean, false, mean});
+          statics.loads.varies = false;
+          statics.load(Tensor<1, dim>());
+          auto &points = statics.points;
+          statics.workspace.reinit(0, points.size());
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int j = 0; j < dim; ++j)
+              std::fill_n(statics.workspace.velocity_gradient(i, j),
+                          points.size(),
+                          0.);
+          statics.materials.update_stress(points,
+                                          statics.workspace,
+                                          points.all(),
+                                          0.);
+          action(statics);
+        }
   }
 
 
@@ -73,15 +55,14 @@ namespace
   /// sum f.u = sum V P:H, and the forces at rest are the explicit scheme's.
   template <int dim>
   void
-  expect_work(Statics<dim> &statics, const StrainMeasure measure)
+  expect_work(Statics<dim> &statics)
   {
-    StepParts<dim> parts(statics, measure);
+    StepParts<dim> parts(statics);
     auto           problem = statics.problem();
     auto          &points  = statics.points;
     const auto     u       = parts.random_field(statics, 0.01);
     auto           forces  = parts.unknowns.field();
-    ASSERT_TRUE(
-      parts.internal_forces.evaluate(problem, parts.weights, u, forces));
+    parts.internal_forces.evaluate(problem, parts.weights, u, forces);
 
     double                          work = 0., scale = 0.;
     std::vector<StressTangent<dim>> answers(points.size());
@@ -89,8 +70,7 @@ namespace
       points,
       points.all(),
       [&](const auto &model, const unsigned int begin, const unsigned int end) {
-        model.linearize(
-          points, statics.workspace, begin, end, measure, &answers[begin]);
+        model.linearize(points, statics.workspace, begin, end, &answers[begin]);
       });
     for (unsigned int p = 0; p < points.size(); ++p)
       for (unsigned int i = 0; i < dim; ++i)
@@ -110,13 +90,15 @@ namespace
 
   template <int dim>
   void
-  expect_explicit_forces(Statics<dim> &statics, const StrainMeasure measure)
+  expect_explicit_forces(Statics<dim> &statics)
   {
-    StepParts<dim> parts(statics, measure);
+    StepParts<dim> parts(statics);
     auto           problem = statics.problem();
     auto           forces  = parts.unknowns.field();
-    ASSERT_TRUE(parts.internal_forces.evaluate(
-      problem, parts.weights, parts.unknowns.field(), forces));
+    parts.internal_forces.evaluate(problem,
+                                   parts.weights,
+                                   parts.unknowns.field(),
+                                   forces);
     const double scale = largest(forces);
     EXPECT_GT(scale, 10.);
     for (const unsigned int node : parts.unknowns.active_nodes())
@@ -129,18 +111,17 @@ namespace
 
 
   /// The matrix against central differences of the forces, along some
-  /// directions. With small strain it is symmetric.
+  /// directions. The matrix is symmetric.
   template <int dim>
   void
-  expect_tangent(Statics<dim> &statics, const StrainMeasure measure)
+  expect_tangent(Statics<dim> &statics)
   {
-    StepParts<dim> parts(statics, measure);
+    StepParts<dim> parts(statics);
     auto           problem = statics.problem();
     const auto     u       = parts.random_field(statics, 0.01);
     const auto     forces  = [&](const std::vector<double> &at) {
       auto result = parts.unknowns.field();
-      EXPECT_TRUE(
-        parts.internal_forces.evaluate(problem, parts.weights, at, result));
+      parts.internal_forces.evaluate(problem, parts.weights, at, result);
       return result;
     };
     forces(u);
@@ -162,16 +143,13 @@ namespace
         const double asymmetry =
           std::abs(dot(w, Kv) - dot(v, parts.multiply(matrix.matrix(), w)));
         const double scale = std::sqrt(dot(w, w) * dot(Kv, Kv));
-        if (measure == StrainMeasure::small)
-          EXPECT_LT(asymmetry, 1e-13 * scale);
-        else
-          EXPECT_GT(asymmetry, 1e-6 * scale);
+        EXPECT_LT(asymmetry, 1e-13 * scale);
       }
   }
 
 
 
-  /// An elastic or hyperelastic body in the interior without stress.
+  /// An elastic body in the interior without stress.
   template <int dim>
   void
   on_bodies_at_rest(const MaterialName                        &name,
@@ -200,11 +178,10 @@ namespace
   template <int dim>
   double
   force_of(Statics<dim>         &statics,
-           const StrainMeasure   measure,
            const Tensor<1, dim> &a,
            const Tensor<2, dim> &A)
   {
-    StepParts<dim> parts(statics, measure);
+    StepParts<dim> parts(statics);
     auto           problem = statics.problem();
     const auto     places  = places_of_nodes(statics.grid);
     auto           u = parts.unknowns.field(), forces = u;
@@ -214,8 +191,7 @@ namespace
         for (unsigned int d = 0; d < dim; ++d)
           u[dim * node + d] = at[d];
       }
-    EXPECT_TRUE(
-      parts.internal_forces.evaluate(problem, parts.weights, u, forces));
+    parts.internal_forces.evaluate(problem, parts.weights, u, forces);
     return largest(forces) / 250e3;
   }
 
@@ -237,17 +213,9 @@ namespace
     turn[0][1]             = -std::sin(0.4);
     const auto no_gradient = Tensor<2, dim>();
     on_bodies_at_rest<dim>({"block", "linear elastic"}, [&](auto &statics) {
-      const auto small = StrainMeasure::small;
-      EXPECT_LT(force_of(statics, small, a, no_gradient), 1e-13);
-      EXPECT_LT(force_of(statics, small, a, spin), 1e-13);
-      EXPECT_GT(force_of(statics, small, a, turn), 1e-2);
-      EXPECT_LT(force_of(statics, StrainMeasure::large, a, turn), 1e-12);
-    });
-    on_bodies_at_rest<dim>({"rubber", "Hencky"}, [&](auto &statics) {
-      const auto large = StrainMeasure::large;
-      EXPECT_LT(force_of(statics, large, a, no_gradient), 1e-13);
-      EXPECT_LT(force_of(statics, large, a, turn), 1e-12);
-      EXPECT_GT(force_of(statics, large, a, spin), 1e-4);
+      EXPECT_LT(force_of(statics, a, no_gradient), 1e-13);
+      EXPECT_LT(force_of(statics, a, spin), 1e-13);
+      EXPECT_GT(force_of(statics, a, turn), 1e-2);
     });
   }
 } // namespace

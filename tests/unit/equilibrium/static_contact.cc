@@ -163,7 +163,7 @@ TEST(StaticContactTest, BlockInACornerOfTwoSeabeds)
     {
       const Force   gravity = Point<2>(-0.6 * g, -g);
       BlockOnSeabed block(seabed(0.2, 1e9, "set Left = seabed\n"), gravity, 0.);
-      StaticOptions options = block.equilibrium.options(StrainMeasure::small);
+      StaticOptions options = block.equilibrium.options();
       options.n_load_steps  = n_steps;
       block.equilibrium.begin(options);
       while (!block.equilibrium.is_balanced())
@@ -243,7 +243,7 @@ TEST(StaticContactTest, FrictionIsWithinItsLimitAtEachLoadStep)
         2.,
         "set Young's modulus = 1e6\nset Poisson's ratio = 0.45\n");
       const double  small   = 1e-6 * block.weight.norm();
-      StaticOptions options = block.equilibrium.options(StrainMeasure::small);
+      StaticOptions options = block.equilibrium.options();
       options.n_load_steps  = 4;
       block.equilibrium.begin(options);
       for (unsigned int step = 1; step <= 4; ++step)
@@ -310,7 +310,7 @@ namespace
   {
     NodeOnSeabed()
       : BlockOnSeabed(seabed(0.5, 150.), Point<2>(0., -g))
-      , parts(*this, StrainMeasure::small, constants.mass_cutoff)
+      , parts(*this, constants.mass_cutoff)
     {
       const auto places = places_of_nodes(grid);
       for (const unsigned int active : parts.unknowns.active_nodes())

@@ -51,8 +51,8 @@ namespace
       Vector result;
       for (unsigned int k = 0; k < contact.impulses().size(); ++k)
         {
-          const FacetImpulse<2> &impulse = contact.impulses()[k];
-          const Vector           n       = contact.facets().owned()[k].normal;
+          const ContactImpulse<2> &impulse = contact.impulses()[k];
+          const Vector             n       = contact.facets().owned()[k].normal;
           EXPECT_GE(impulse.normal, 0.);
           EXPECT_LE(impulse.tangential.norm(),
                     coefficient * impulse.normal + 1e-9 * weight.norm());

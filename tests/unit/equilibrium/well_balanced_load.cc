@@ -99,7 +99,7 @@ namespace well_balanced_load_test
         StaticProblem<dim> all = this->problem();
         sum_forces(all);
         this->contact.find_constraints(*this);
-        std::vector<FacetImpulse<dim>> forces;
+        std::vector<ContactImpulse<dim>> forces;
         for (const auto &constraint : this->contact.constraints().all())
           {
             const double force =
@@ -207,7 +207,7 @@ namespace well_balanced_load_test
     {
       LevelGround<dim> ground(0., 2.62, exact, false, communicator, true);
       ground.mudline = [](const Point<dim> &x) { return 2.3 + 0.11 * x[0]; };
-      StepParts<dim>     parts(ground, StrainMeasure::small);
+      StepParts<dim>     parts(ground);
       StaticProblem<dim> problem = ground.problem();
       StaticContact<dim> contact;
       contact.begin(problem, parts.unknowns, 1.);
@@ -253,7 +253,7 @@ namespace well_balanced_load_test
                ? 4.6
                : std::numeric_limits<double>::quiet_NaN();
     };
-    StepParts<2>     parts(block, StrainMeasure::small);
+    StepParts<2>     parts(block);
     StaticProblem<2> problem = block.problem();
     StaticContact<2> contact;
     contact.begin(problem, parts.unknowns, 1.);

@@ -2,10 +2,10 @@
 // Pipes along lines of the plan, and shapes whose places are on the map.
 
 #include <talus/contact/ground.h>
-#include <talus/contact/obstacle_sizes.h>
+#include <talus/contact/obstacle_remarks.h>
 #include <talus/geometry/expression_surface.h>
 #include <talus/geometry/pipe.h>
-#include <talus/geometry/section_line.h>
+#include <talus/geometry/pipe_parameters.h>
 
 #include "core_setup.h"
 #include "obstacles_setup.h"

@@ -375,6 +375,151 @@ namespace
 
 
 
+  // ----------------------------------------------- what the ranks exchange
+
+  /// A mesh of 12^dim cells with a body of 2^dim cells, one point in the
+  /// centre of each, that moves along the diagonal. A box of half a cell
+  /// reaches the nodes of its own cell only.
+  template <int dim>
+  struct SmallBody : Core<dim>
+  {
+    SmallBody(const double lower, const double speed, const MPI_Comm ranks)
+      : Core<dim>(dim == 2 ? mesh("0, 0", "12, 12")
+                           : mesh("0, 0, 0", "12, 12, 12"),
+                  {},
+                  ranks)
+      , lower(lower)
+    {
+      for (unsigned int i = 0; i < power(2, dim); ++i)
+        {
+          Point<dim> x;
+          for (unsigned int d = 0; d < dim; ++d)
+            x[d] = lower + 0.5 + ((i >> d) & 1);
+          if (this->grid.find_cell(x) >= this->grid.n_owned_cells())
+            continue;
+          Tensor<1, dim> half_a_cell, velocity;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              half_a_cell[d] = 0.5;
+              velocity[d]    = speed * (1. + 0.01 * i);
+            }
+          const unsigned int p = this->add(x, half_a_cell);
+          this->set(this->points.velocity, p, velocity);
+          this->points.data(this->points.id)[p] = i;
+        }
+    }
+
+    /// Number of ghosts of this rank at the cells of the body.
+    unsigned int
+    n_ghosts_with_soil() const
+    {
+      std::set<unsigned int> result;
+      for (const auto &[number, x] : Numbering<dim>(this->grid).nodes)
+        {
+          bool is_ghost   = !this->grid.owned_nodes().is_element(number);
+          bool is_at_body = true;
+          for (unsigned int d = 0; d < dim; ++d)
+            is_at_body = is_at_body && std::abs(x[d] - lower - 1.) < 1.1;
+          if (is_ghost && is_at_body)
+            result.insert(number);
+        }
+      return result.size();
+    }
+
+    const double lower; ///< lower corner of the body along each axis, m
+  };
+
+
+
+  /// The body sits in the corner, where no other rank is, then farther and
+  /// farther along the diagonal, over the borders of the ranks.
+  template <int dim>
+  void
+  expect_only_nodes_with_soil_are_sent()
+  {
+    for (unsigned int lower = 0; lower <= 10; ++lower)
+      {
+        SCOPED_TRACE(text(dim, "-D, body at ", lower));
+        SmallBody<dim> core(lower, 1., MPI_COMM_WORLD);
+        core.sort();
+        core.nodes.clear();
+        core.scatter_points();
+        core.nodes.sum_over_ranks(core.grid);
+        core.nodes.update_momentum(0.01, 1e-9);
+        const unsigned int ghosts =
+          MPI::sum(core.n_ghosts_with_soil(), MPI_COMM_WORLD);
+        // Motions go from the owners to all ghosts.
+        core.grid.sent() = {};
+        core.nodes.share_with_ghosts(core.grid);
+        EXPECT_EQ(MPI::sum(core.grid.sent().n_nodes, MPI_COMM_WORLD), ghosts);
+        EXPECT_EQ(MPI::sum(core.grid.sent().n_ghosts_with_soil, MPI_COMM_WORLD),
+                  ghosts);
+        if (lower == 0)
+          {
+            EXPECT_EQ(ghosts, 0u);
+          }
+        // Ranks add no active nodes to the body and a layer around.
+        unsigned int n_active = 1;
+        for (unsigned int d = 0; d < dim; ++d)
+          n_active *= (lower == 0 || lower == 10 ? 4 : 5);
+        const unsigned int found =
+          MPI::sum(core.nodes.active_nodes().size(), MPI_COMM_WORLD);
+        EXPECT_LE(found, n_active);
+        EXPECT_GE(found, power(3, dim));
+      }
+  }
+
+
+
+  TEST(Ranks, OnlyNodesWithSoilAreSent)
+  {
+    expect_only_nodes_with_soil_are_sent<2>();
+    expect_only_nodes_with_soil_are_sent<3>();
+  }
+
+
+
+  /// The body crosses all borders by 0.9 cells per step and more.
+  template <int dim>
+  void
+  expect_fast_body_stays_whole()
+  {
+    SmallBody<dim> alone(0., 90., MPI_COMM_SELF);
+    SmallBody<dim> core(0., 90., MPI_COMM_WORLD);
+    const double   n = power(2, dim);
+    for (unsigned int i = 0; i < 10; ++i)
+      {
+        SCOPED_TRACE(text(dim, "-D, step ", i));
+        const StepRecord of_one = step(alone), of_all = step(core);
+        for (const auto member :
+             {&StepRecord::sums, &StepRecord::motions, &StepRecord::points})
+          expect_values(of_all.*member, of_one.*member);
+        EXPECT_EQ(MPI::sum(of_all.points.size(), MPI_COMM_WORLD), n);
+        Tensor<1, dim> momentum;
+        double         mass = 0;
+        for (const unsigned int node : core.nodes.active_nodes())
+          {
+            mass += core.nodes.mass(node);
+            momentum += core.nodes.momentum(node);
+          }
+        EXPECT_NEAR(MPI::sum(mass, MPI_COMM_WORLD), n, 1e-12);
+        for (unsigned int d = 0; d < dim; ++d)
+          EXPECT_NEAR(MPI::sum(momentum[d], MPI_COMM_WORLD),
+                      90. * (n + 0.01 * n * (n - 1) / 2),
+                      1e-10);
+      }
+  }
+
+
+
+  TEST(Ranks, FastBodyLosesNothingAtTheBorder)
+  {
+    expect_fast_body_stays_whole<2>();
+    expect_fast_body_stays_whole<3>();
+  }
+
+
+
   TEST(Ranks, StepsAreThoseOfOneRank)
   {
     expect_steps_of_one_rank<2>();

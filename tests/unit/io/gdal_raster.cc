@@ -8,7 +8,6 @@
 #include <talus/io/coordinate_system.h>
 #include <talus/io/gdal_raster.h>
 #include <talus/io/raster_file.h>
-#include <talus/io/surface_motion.h>
 
 #include <gtest/gtest.h>
 
@@ -553,57 +552,5 @@ namespace gdal_raster_test
     for (const std::string words :
          {"somewhere", "EPSG:1", "PROJCS[", "/etc/hosts"})
       expect_refused([&] { check_geotiff(words); }, "is not known to GDAL");
-  }
-
-  // Rows of netCDF go north, rows of a raster south.
-  TEST_F(GdalRasterTest, MotionOfTheSeaFloorIsReadBack)
-  {
-    SurfaceMotion motion;
-    motion.frame.n_columns = 3;
-    motion.frame.n_rows    = 2;
-    motion.frame.west      = 100.;
-    motion.frame.south     = 50.;
-    motion.frame.dx        = 10.;
-    motion.frame.dy        = 4.;
-    motion.start_time      = 7.;
-    motion.interval        = 0.5;
-    motion.n_blocks        = 2;
-    motion.change          = [](const unsigned int k) {
-      const double c = k / 3.;
-      return std::vector<double>{0., c, 2. * c, -3. * c, -4. * c, -5. * c};
-    };
-    write_netcdf(path, motion);
-    const GDALDatasetUniquePtr file(
-      GDALDataset::Open(path.c_str(), GDAL_OF_MULTIDIM_RASTER));
-    ASSERT_TRUE(file != nullptr);
-    const auto values = [&](const std::string &name, const unsigned int n) {
-      std::vector<double>  result(n);
-      const auto           array = file->GetRootGroup()->OpenMDArray(name);
-      std::vector<GUInt64> start;
-      std::vector<size_t>  count;
-      for (const auto &axis : array->GetDimensions())
-        {
-          start.push_back(0);
-          count.push_back(axis->GetSize());
-        }
-      EXPECT_TRUE(array->Read(start.data(),
-                              count.data(),
-                              nullptr,
-                              nullptr,
-                              GDALExtendedDataType::Create(GDT_Float64),
-                              result.data()));
-      return result;
-    };
-    using Numbers = std::vector<double>;
-    EXPECT_EQ(values("x", 3), (Numbers{105., 115., 125.}));
-    EXPECT_EQ(values("y", 2), (Numbers{52., 56.}));
-    EXPECT_EQ(values("time", 2), (Numbers{7., 7.5}));
-    const double c = 1. / 3.;
-    EXPECT_EQ(
-      values("dz", 12),
-      (Numbers{0, 0, 0, 0, 0, 0, -3. * c, -4. * c, -5. * c, 0., c, 2. * c}));
-    EXPECT_EQ(file->GetRootGroup()->OpenMDArray("dz")->GetUnit(), "m");
-    expect_refused([&] { write_netcdf("/no/such/folder/a.nc", motion); },
-                   "could not be written");
   }
 } // namespace gdal_raster_test

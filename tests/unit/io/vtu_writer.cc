@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/io/field_writer.h>
-#include <talus/io/vtu_arrays.h>
+#include <talus/io/vtu_writer.h>
 #include <talus/observers/grid_output.h>
 #include <talus/observers/output.h>
 #include <talus/observers/points_output.h>
@@ -17,6 +16,9 @@
 #include <map>
 
 #include "observers_setup.h"
+#include "suites.h"
+
+TALUS_ALSO_ON_RANKS(VtuRanksTest, 3);
 
 namespace
 {
@@ -228,7 +230,7 @@ namespace
     add_points(s);
     s.stretch(1, 1, 3.);
     PointsOutput<2> output;
-    output.begin({folder, "vtu", /*boxes_as_cells=*/true}, s);
+    output.begin({folder, /*boxes_as_cells=*/true}, s);
     output.write(s);
     const Vtu vtu = read_vtu(folder / "points-0000.vtu");
     EXPECT_EQ(vtu.n_points, 8u);
@@ -255,7 +257,7 @@ namespace
     s.add({5000000.6, 0.5});
     s.points.data(s.points.initial_position, 0)[0] = 5000000.6;
     PointsOutput<2> output;
-    output.begin({folder, "vtu", /*boxes_as_cells=*/true}, s);
+    output.begin({folder, /*boxes_as_cells=*/true}, s);
     output.write(s);
     boost::property_tree::ptree tree;
     boost::property_tree::read_xml((folder / "points-0000.vtu").string(), tree);
@@ -327,7 +329,7 @@ namespace
     Scene<3> s("0, 0, 0", "4, 4, 4");
     add_points(s);
     PointsOutput<3> output;
-    output.begin({folder, "vtu", /*boxes_as_cells=*/true}, s);
+    output.begin({folder, /*boxes_as_cells=*/true}, s);
     output.write(s);
     Vtu vtu = read_vtu(folder / "points-0000.vtu");
     EXPECT_EQ(vtu.n_points, 16u);
@@ -349,7 +351,7 @@ namespace
     add_points(s);
     s.sort();
     GridOutput<2> output;
-    output.begin({folder, "vtu"}, s);
+    output.begin({folder}, s);
     // Before the first step no node is active.
     output.observe(s);
     Vtu vtu = read_vtu(folder / "grid-0000.vtu");
@@ -393,7 +395,7 @@ namespace
     Scene<2> s("0, 0", "8, 4");
     add_points(s);
     PointsOutput<2> output;
-    output.begin({folder, "vtu", /*boxes_as_cells=*/true}, s);
+    output.begin({folder, /*boxes_as_cells=*/true}, s);
     output.write(s);
     output.write(s);
     fs::remove(folder / "points-0000.vtu");
@@ -403,45 +405,97 @@ namespace
 
 
 
-  /// Ranks without cells have none.
-  TEST_F(VtuTest, PiecesOfAllRanksAreMissed)
+  TEST_F(VtuTest, FilesThatWereRemovedOrCutAreMissed)
   {
     StateList       state;
     PointsOutput<2> output;
     output.list_state(state);
-    state.texts().at(0).set("0 points-0000.pvtu\n1 points-0001.pvtu\n");
+    state.texts().at(0).set("0 points-0000.vtu\n0.1 points-0001.vtu\n");
+    EXPECT_EQ(state.texts().at(0).get(),
+              "0 points-0000.vtu\n0.10000000000000001 points-0001.vtu\n");
+    const std::string whole = "there\n</UnstructuredGrid>\n</VTKFile>\n";
     std::ofstream(folder / "points.pvd") << "there";
-    std::ofstream(folder / "points-0000.pvtu")
-      << "<PUnstructuredGrid>\n<Piece Source=\"points-0000.0.vtu\"/>\n"
-         "<Piece Source=\"points-0000.2.vtu\"/>\n</PUnstructuredGrid>\n"
-         "</VTKFile>\n";
-    std::ofstream(folder / "points-0000.0.vtu") << "there\n</VTKFile>\n";
-    EXPECT_EQ(output.missing_files({folder, "vtu"}),
-              std::vector<std::string>(
-                {"points-0000.2.vtu", "points-0001.pvtu"}));
+    std::ofstream(folder / "points-0000.vtu") << whole;
+    EXPECT_EQ(output.missing_files({folder}),
+              std::vector<std::string>({"points-0001.vtu"}));
     // Cut short, by a byte and to nothing.
-    for (const std::string rest : {"there\n</VTKFile>", ""})
+    for (const std::size_t rest : {whole.size() - 1, std::size_t(0)})
       {
-        std::ofstream(folder / "points-0000.0.vtu") << rest;
-        EXPECT_EQ(output.missing_files({folder, "vtu"}).front(),
-                  "points-0000.0.vtu");
+        std::ofstream(folder / "points-0000.vtu") << whole.substr(0, rest);
+        EXPECT_EQ(output.missing_files({folder}).front(), "points-0000.vtu");
       }
     fs::remove(folder / "points.pvd");
-    EXPECT_EQ(output.missing_files({folder, "vtu"}).front(), "points.pvd");
+    EXPECT_EQ(output.missing_files({folder}).front(), "points.pvd");
   }
 
 
 
-  TEST(FieldFormats, EachNameMakesAWriter)
+  /// Points of a rank, as vertices.
+  OutputCells
+  cells_of(const unsigned int n, const unsigned int rank)
   {
-    const std::string names = field_format_names();
-    for (const std::string &name :
-         dealii::Utilities::split_string_list(names, '|'))
-      EXPECT_NE(make_field_writer(name), nullptr);
-    EXPECT_NE(sentence_thrown_by([]() {
-                make_field_writer("vtk");
-              }).find("one of " + names),
-              std::string::npos);
+    OutputCells cells({{"index",
+                        "-",
+                        FieldKind::scalar,
+                        [](const unsigned int i, double *value) {
+                          *value = i;
+                        }}},
+                      ItemsAt::vertices,
+                      CellShape::vertex,
+                      0.5,
+                      7);
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        cells.add_vertex(dealii::Point<2>(i, rank));
+        cells.items.push_back(i);
+      }
+    return cells;
+  }
+
+
+
+  std::vector<float>
+  places_of(const unsigned int n, const unsigned int rank)
+  {
+    const std::vector<double> places = cells_of(n, rank).vertices;
+    return {places.begin(), places.end()};
+  }
+
+
+
+  /// The second of three ranks has no cells, and no piece.
+  class VtuRanksTest : public ObserversTest
+  {};
+
+  TEST_F(VtuRanksTest, OnePieceForEachRankWithCells)
+  {
+    namespace MPI              = dealii::Utilities::MPI;
+    const unsigned int rank    = MPI::this_mpi_process(MPI_COMM_WORLD);
+    const unsigned int n_ranks = MPI::n_mpi_processes(MPI_COMM_WORLD);
+    const fs::path     path =
+      MPI::broadcast(MPI_COMM_WORLD, (folder / "cells.vtu").string());
+    OutputCells cells = cells_of(rank == 1 ? 0 : 2 + rank, rank);
+    write_vtu(path, MPI_COMM_WORLD, cells);
+    MPI_Barrier(MPI_COMM_WORLD);
+    boost::property_tree::ptree tree;
+    boost::property_tree::read_xml(path.string(), tree);
+    unsigned int r = 0;
+    for (const auto &[tag, piece] : tree.get_child("VTKFile.UnstructuredGrid"))
+      if (tag == "Piece")
+        {
+          EXPECT_EQ(piece.get<unsigned int>("<xmlattr>.NumberOfCells"), 2 + r);
+          EXPECT_EQ(decode<float>(piece.get<std::string>("Points.DataArray")),
+                    places_of(2 + r, r));
+          r += (r == 0 ? 2 : 1);
+        }
+    EXPECT_EQ(r, n_ranks == 1 ? 2 : n_ranks);
+
+    // If no rank has cells, there is an empty piece.
+    write_vtu(path, MPI_COMM_WORLD, cells_of(0, rank));
+    MPI_Barrier(MPI_COMM_WORLD);
+    EXPECT_EQ(read_vtu(path).n_cells, 0u);
+    EXPECT_TRUE(is_complete_vtu(path));
+    MPI_Barrier(MPI_COMM_WORLD);
   }
 
 

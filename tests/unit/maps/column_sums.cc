@@ -173,6 +173,8 @@ TEST(ColumnSums, StrengthIsTheMeanByVolume)
   soil.add_box({1.5, 0.5}, 0.5, {});
   const unsigned int p                  = soil.add_box({1.5, 1.5}, 0.25, {});
   soil.points.data(soil.points.body)[p] = 1.;
+  materials.of_body(0).initialize(soil.points, 0, p);
+  materials.of_body(1).initialize(soil.points, p, p + 1);
   soil.sort();
   soil.sums.sum_soil(soil, &materials);
   EXPECT_NEAR(soil.sums.strength(1), (2. * 1000. + 4000.) / 3., 1e-9);

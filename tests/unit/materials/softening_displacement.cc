@@ -195,7 +195,7 @@ namespace softening_displacement_test
           const double lost =
             law == "von Mises" ? s_u - residual : 3. * (1. - remaining) * s_u;
           const double expected = 0.99 * soil_of_band.mu * d / (lost * h);
-          EXPECT_NEAR(soil.law->largest_strength_factor(),
+          EXPECT_NEAR(soil.law->largest_strength_factor({s_u, s_u}),
                       expected,
                       1e-12 * expected);
         }

@@ -131,18 +131,18 @@ TEST(StrengthFactor, OfSoilThatSoftensIsLimited)
   for (const std::string name : {"von Mises", "Bingham"})
     {
       Specimen<2>  soil(name, parameters(name, 1.));
-      const double largest  = soil.law->largest_strength_factor();
+      const double largest  = soil.law->largest_strength_factor({s_u, s_u});
       const double expected = name == "von Mises"
                                 ? 3. * paper.mu / (0.01 * paper.E)
                                 : paper.mu * 2. / (3. * 0.7 * s_u);
       EXPECT_NEAR(largest, 0.99 * expected, 1e-12 * expected);
-      EXPECT_NO_THROW(Specimen<2>(name, parameters(name, 0.999 * expected)));
-      EXPECT_THROW(Specimen<2>(name, parameters(name, 1.001 * expected)),
+      EXPECT_NO_THROW(Specimen<2>(name, parameters(name, 0.999 * largest)));
+      EXPECT_THROW(Specimen<2>(name, parameters(name, 1.001 * largest)),
                    ExcUser);
     }
   for (const std::string &name : material_names<2>())
-    EXPECT_TRUE(std::isinf(
-      Specimen<2>(name, paper.parameters()).law->largest_strength_factor()))
+    EXPECT_TRUE(std::isinf(Specimen<2>(name, paper.parameters())
+                             .law->largest_strength_factor({s_u, s_u})))
       << name;
 }
 

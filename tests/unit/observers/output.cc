@@ -70,9 +70,9 @@ namespace
     // Rows at 0, 0.3, 0.5, 0.8, 1 and 1.2; fields at 0, 1 and 1.2.
     const auto rows = lines("a/b/statistics.csv");
     ASSERT_EQ(rows.size(), 1u + 6u);
-    EXPECT_EQ(std::stod(rows[2]), 0.3);
+    EXPECT_EQ(std::stod(rows[2]), 3 * 0.1);
     EXPECT_EQ(std::stod(rows[3]), 0.5);
-    EXPECT_EQ(std::stod(rows[6]), 1.2);
+    EXPECT_EQ(std::stod(rows[6]), 12 * 0.1);
     EXPECT_EQ(lines("a/b/profile.csv").size(), 1u + 3u);
     for (const std::string file : {"points", "grid"})
       {
@@ -103,6 +103,8 @@ namespace
     // Before the table of wall times.
     EXPECT_EQ(lines("log.txt").at(0), "It begins.");
     EXPECT_EQ(lines("log.txt").at(1).find("Wall time by phase"), 0u);
+    // One point in two steps.
+    EXPECT_EQ(lines("log.txt").back().find("Work: 2 point-steps of "), 0u);
     EXPECT_EQ(lines("statistics.csv").size(), 3u);
     EXPECT_EQ(lines("profile.csv").size(), 3u);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/observers/output_times.h>
+#include <talus/observers/output.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/observers/reaction_interval.h>
+#include <talus/observers/reaction_table.h>
 
 #include <gtest/gtest.h>
 

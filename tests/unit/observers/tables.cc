@@ -200,13 +200,13 @@ namespace
     for (unsigned int p = 0; p < 200; ++p)
       s.add({(p * 77 % 200) * 0.01, 0.5}, 0.1);
     // 199 of 200 equal points are 99.5 %, whatever the order.
-    EXPECT_EQ(front_of_mass(s.points, 0.995, MPI_COMM_WORLD), 1.98);
-    EXPECT_EQ(front_of_mass(s.points, 0.9951, MPI_COMM_WORLD), 1.99);
-    EXPECT_EQ(front_of_mass(s.points, 0.5, MPI_COMM_WORLD), 0.99);
-    EXPECT_EQ(front_of_mass(s.points, 1., MPI_COMM_WORLD), 1.99);
+    EXPECT_EQ(front_of_mass(s.points, 0, 0.995, MPI_COMM_WORLD), 1.98);
+    EXPECT_EQ(front_of_mass(s.points, 0, 0.9951, MPI_COMM_WORLD), 1.99);
+    EXPECT_EQ(front_of_mass(s.points, 0, 0.5, MPI_COMM_WORLD), 0.99);
+    EXPECT_EQ(front_of_mass(s.points, 0, 1., MPI_COMM_WORLD), 1.99);
     // A light point far ahead does not count.
     s.add({7.9, 0.5}, 0.01);
-    EXPECT_EQ(front_of_mass(s.points, 0.995, MPI_COMM_WORLD), 1.99);
+    EXPECT_EQ(front_of_mass(s.points, 0, 0.995, MPI_COMM_WORLD), 1.99);
   }
 
 

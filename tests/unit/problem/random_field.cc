@@ -2,7 +2,7 @@
 // Lognormal random field of the strength: moments and correlation.
 
 #include <talus/base/errors.h>
-#include <talus/problem/random_field.h>
+#include <talus/problem/strength_field.h>
 
 #include <gtest/gtest.h>
 

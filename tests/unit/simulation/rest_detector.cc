@@ -13,15 +13,21 @@ namespace rest_test
   /// Soil that has slid by @p way, m, in cells of 1 m; looks every half second.
   struct Slide : Core<2>
   {
-    explicit Slide(const double way, const bool has_soil = true)
+    explicit Slide(const double       way,
+                   const bool         has_soil   = true,
+                   const std::string &parameters = "")
       : Core<2>(slab<2>())
     {
       dealii::ParameterAcceptor::declare_all_parameters();
       dealii::ParameterAcceptor::prm.parse_input_from_string(
-        in_section("Rest", "set Duration = 5"));
+        in_section("Rest", "set Duration = 5\n" + parameters));
       dealii::ParameterAcceptor::parse_all_parameters();
+      // The first point is ahead of all others.
+      unsigned int n = 0;
       if (has_soil)
-        add_shared(*this, 20, 1, [&]() { return place(1.5); });
+        add_shared(*this, 20, 1, [&]() {
+          return n++ == 0 ? Point<2>(4.6, 2.) : place(1.5);
+        });
       for (unsigned int p = 0; p < points.size(); ++p)
         points.data(points.initial_position)[p] =
           points.data(points.position)[p] - way;
@@ -102,6 +108,21 @@ TEST(RestDetector, FiveSecondsOfLittleEnergy)
 
 
 
+// Soil that moves with 1e-4 of the largest energy is at rest for a ratio of
+// 2e-4, not for 5e-5.
+TEST(RestDetector, RatioOfTheUser)
+{
+  using namespace rest_test;
+  const auto time = [](const std::string &ratio) {
+    return Slide(2., true, "set Kinetic energy ratio = " + ratio)
+      .time_of_rest(slow);
+  };
+  EXPECT_EQ(time("2e-4"), 5.5);
+  EXPECT_EQ(time("5e-5"), never);
+}
+
+
+
 TEST(RestDetector, LoadsMustHaveStoppedToChange)
 {
   using namespace rest_test;
@@ -128,6 +149,35 @@ TEST(RestDetector, OutermostPointsMustStay)
       }),
                 creep > 0.02 ? never : 5.5)
         << creep;
+    }
+}
+
+
+
+// A point of a ten-thousandth of the mass may creep on, and is told.
+TEST(RestDetector, StragglersMayCreep)
+{
+  using namespace rest_test;
+  for (const double mass : {1e-4, 1.})
+    {
+      Slide             slide(2.);
+      talus::Points<2> &points   = slide.points;
+      const auto        is_first = [&](const unsigned int p) {
+        return points.data(points.id)[p] == 0;
+      };
+      for (unsigned int p = 0; p < points.size(); ++p)
+        if (is_first(p))
+          points.data(points.mass)[p] = mass;
+      EXPECT_EQ(slide.time_of_rest([&](const double /*t*/) {
+        for (unsigned int p = 0; p < points.size(); ++p)
+          if (is_first(p))
+            points.data(points.position)[p] += 0.03;
+        slide.sort();
+        return 0.01;
+      }),
+                mass < 1. ? 5.5 : never);
+      EXPECT_EQ(contains(slide.rest.sentence(5.5, 100.), "creep on outside"),
+                mass < 1.);
     }
 }
 

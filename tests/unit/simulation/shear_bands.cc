@@ -2,7 +2,6 @@
 // Extent of the yielded soil, and the table bands.csv.
 
 #include <talus/simulation/shear_bands.h>
-#include <talus/simulation/yielded_extent.h>
 
 #include <fstream>
 #include <sstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/terrain/smooth_raster.h>
+#include <talus/terrain/project_raster.h>
 
 #include <gtest/gtest.h>
 

@@ -101,7 +101,7 @@ namespace
     }
 
     WithObstacles<dim>                           with;
-    FacetContact<dim>                            contact;
+    Contact<dim>                                 contact;
     FreeSurface<dim>                             surface;
     std::vector<std::unique_ptr<HalfSpace<dim>>> shapes;
   };

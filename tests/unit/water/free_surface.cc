@@ -112,7 +112,7 @@ namespace
     }
 
     WithObstacles<dim> with;
-    FacetContact<dim>  contact;
+    Contact<dim>       contact;
     FreeSurface<dim>   surface;
     /// Velocity of the points, m/s.
     std::function<Tensor<1, dim>(const Point<dim> &)> velocity =

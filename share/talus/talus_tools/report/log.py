@@ -9,7 +9,8 @@ ENDED = "A report of this run: "
 # them is worth reading, its numbered remarks before all.
 ROUTINE = [re.compile(pattern) for pattern in (
     r"The mesh fills .* points?\.$", r"t = .*the time step is ", r"t = .*largest share of points",
-    r"t = .*(mesh changed|shared out)", r"Wall time by phase", r"Peak memory of a rank", r"\s",
+    r"t = .*(mesh changed|shared out)", r"Wall time by phase", r"Peak memory of a rank",
+    r"Work: ", r"Messages of nodes: ", r"\s",
     r"Stage '.*':$", r"\d+ steps to t = ", ENDED, r"$")]
 SAFETY = re.compile(r"The factor of safety is ")
 RESULTS = [SAFETY, re.compile(r"Equilibrium was found ")]

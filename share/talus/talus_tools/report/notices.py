@@ -5,7 +5,6 @@ import os
 
 import numpy
 
-from talus_tools.hdf5 import h5py
 from talus_tools.report.run import has_rows
 from talus_tools.units import plain, show, unit_of
 
@@ -197,13 +196,6 @@ def empty_tables(run):
             for name in names]
 
 
-def without_h5py(run):
-    """Pictures that this Python cannot make."""
-    return [] if h5py or not run.has("points.xdmf") else [
-        "Python's h5py was not found, which reads HDF5, so that pictures of the soil are missing "
-        "here. Debian's package python3-h5py has it."]
-
-
 def remarks(run):
     """The log in one sentence; the lines themselves have a section."""
     n = run.log.n_remarks
@@ -214,5 +206,5 @@ def remarks(run):
 def notices(run):
     """All of them, the gravest first."""
     checks = (unfinished, mass, left, energy, fracture, split_limits, conservation, below_surface,
-              contact_area, moving, cut_off, damaged, empty_tables, without_h5py, remarks)
+              contact_area, moving, cut_off, damaged, empty_tables, remarks)
     return [sentence for check in checks for sentence in check(run)]

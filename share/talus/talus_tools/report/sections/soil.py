@@ -7,7 +7,6 @@ from matplotlib.collections import LineCollection, PolyCollection
 from talus_tools.report.page import WIDTH, Folded, Section, embed, subplots
 from talus_tools.report.sections.cut import cut_points, cut_surface
 from talus_tools.report.way import label_of, way_of
-from talus_tools.vtu import VtuSeries
 
 SPEED = "speed [m/s]"
 N_FRAMES = 5
@@ -104,8 +103,7 @@ def soil(run):
         return None
     way = way_of(run)
     where = "" if way is None else f"Upright section along {way.name}. "
-    file = "points.pvd" if isinstance(series, VtuSeries) else "points.xdmf"
     return Section("soil", "The soil in section",
-                   f"{where}For all times and fields open {file} in ParaView.",
+                   f"{where}For all times and fields open points.pvd in ParaView.",
                    sheared(run, series, way)
                    + [Folded("The soil at some times", [frames(run, series, way)])])
