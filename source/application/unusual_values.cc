@@ -67,10 +67,10 @@ namespace talus
 
 
 
-    /// Return the least number among the undrained shear strengths, Pa; 0
+    /// Return the smallest of the numbers for undrained shear strengths, Pa; 0
     /// without one.
     double
-    least_strength(const Values &values)
+    smallest_strength(const Values &values)
     {
       double least = infinity;
       for (const auto &[path, text] : values)
@@ -96,7 +96,7 @@ namespace talus
               {"", "Friction coefficient", 1e-4, 100., ""},
               {"",
                "Maximum shear stress",
-               least_strength(values) / 300.,
+               smallest_strength(values) / 300.,
                infinity,
                " Pa",
                "fit the strength of the soil"},
