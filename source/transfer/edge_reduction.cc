@@ -27,10 +27,11 @@ namespace talus
     constexpr double min_ratio = (dim == 2 ? 0.5 : 0.3);
 
     // A film of soil one point thick has neighbours along the film and none
-    // across: a long edge along the film stands for soil that must be split. An
-    // edge is shortened by a vector that goes through this part of the film or
-    // less, so that three of four points have the neighbour. With a half, a
-    // slab that breaks up tears (prm/slab-failure.prm).
+    // across: a long edge along the film stands for soil that must be split. In
+    // 3-D an edge is shortened by a vector that goes through this part of the
+    // film or less, so that three of four points have the neighbour. In 2-D a
+    // stretched sheet would tear (tests/cases/thin-slide.prm), and an edge is
+    // shortened along a longer edge only.
     constexpr double largest_share = 0.25;
 
     // Growth beyond which the edge is shortened along edges of any length. The
@@ -160,6 +161,8 @@ namespace talus
       {
         if (!film || square[k] > must_shorten[k])
           return true;
+        if (dim == 2)
+          return square[1 - k] > square[k];
         const auto v      = combination(shift);
         Number     across = 0.;
         for (unsigned int i = 0; i < dim; ++i)

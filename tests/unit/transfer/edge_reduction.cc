@@ -80,24 +80,45 @@ namespace
 
 
   // In a film one point thick a long edge along the film stays, to be split:
-  // the short edge across the film would make it compact, and leave a gap. Of
-  // four and more points above each other most have neighbours across.
+  // the short edge across the film would make it compact, and leave a gap.
   TEST(EdgeReduction, AFilmKeepsItsLongEdges)
   {
     const Tensor<2, 2> start({{0.3, 0.}, {0., 0.2}}),
       stretched({{0.35, 0.}, {0.2, 0.22}});
-    for (const double thickness : {0., 0.2, 0.87, 0.89})
+    for (const bool is_film : {false, true})
       {
         Core<2>            core(cube<2>());
         const unsigned int p = add_cell<2>(core, start, stretched);
         reduce_edges<2>(core.points, 0, 1, false, [&](const unsigned int) {
-          return thickness > 0. ? std::make_optional(
-                                    Film<2>{Tensor<1, 2>({0., 1.}), thickness})
-                                : std::nullopt;
+          return is_film
+                   ? std::make_optional(Film<2>{Tensor<1, 2>({0., 1.}), 0.2})
+                   : std::nullopt;
         });
         const Tensor<2, 2> reduced = core.edges(p);
         EXPECT_NEAR(determinant(reduced), determinant(stretched), 1e-15);
-        EXPECT_EQ(reduced == stretched, thickness > 0. && thickness < 0.88)
+        EXPECT_EQ(reduced == stretched, is_film);
+      }
+  }
+
+
+
+  // Of four and more points above each other most have neighbours across.
+  TEST(EdgeReduction, AFilmOfFourPoints)
+  {
+    const Tensor<2, 3> start({{0.3, 0., 0.}, {0., 0.2, 0.}, {0., 0., 0.3}}),
+      stretched({{0.35, 0., 0.}, {0.2, 0.22, 0.}, {0., 0., 0.3}});
+    for (const double thickness : {0., 0.2, 0.87, 0.89})
+      {
+        Core<3>            core(cube<3>());
+        const unsigned int p = add_cell<3>(core, start, stretched);
+        reduce_edges<3>(core.points, 0, 1, false, [&](const unsigned int) {
+          return thickness > 0.
+                   ? std::make_optional(
+                       Film<3>{Tensor<1, 3>({0., 1., 0.}), thickness})
+                   : std::nullopt;
+        });
+        EXPECT_EQ(core.edges(p) == stretched,
+                  thickness > 0. && thickness < 0.88)
           << thickness;
       }
   }
