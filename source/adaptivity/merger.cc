@@ -20,6 +20,12 @@ namespace talus
     /// Stretch that a merged point must be able to bear before a split [-].
     constexpr double margin = 1.25;
 
+    /// Number of points of a cell down to which a film is merged: half as many
+    /// again as boxes of half a cell need. A film one point thick has a third
+    /// of this number and keeps its neighbours.
+    template <int dim>
+    constexpr unsigned int n_in_film = 3u << (dim - 1);
+
     /// Misfit by round-off of boxes that fit exactly [-].
     constexpr double round_off = 1e-12;
   } // namespace
@@ -303,8 +309,9 @@ namespace talus
     n_kept_ = [&](const Segment &segment) -> std::size_t {
       if (materials.of_body(segment.body).is_hyperelastic())
         return state.points.size();
-      return is_film(state.grid.cells()[segment.cell], state.nodes) ? 1u << dim
-                                                                    : 0;
+      return is_film(state.grid.cells()[segment.cell], state.nodes)
+               ? n_in_film<dim>
+               : 0;
     };
     state.accounts.energy("merging work") +=
       merge(state.points,

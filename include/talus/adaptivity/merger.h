@@ -146,8 +146,8 @@ namespace talus
     double       length_    = 0.5;
     double       tolerance_ = 0.15;
 
-    /// Number of points down to which a segment is merged: in a film as many
-    /// as boxes of half a cell need. All points of hyperelastic laws are kept,
+    /// Number of points down to which a segment is merged: in a film more than
+    /// boxes of half a cell need. All points of hyperelastic laws are kept,
     /// as joint edges would change F, of which the stress is a function.
     std::function<std::size_t(const Segment &)> n_kept_;
 

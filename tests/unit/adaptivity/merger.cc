@@ -292,15 +292,16 @@ namespace
 
 
 
-  // Eight boxes in a row, 0.1 m long and 0.2 m high, fit as one another's
-  // neighbours. A film keeps four points in a cell, since boxes of half a cell
-  // need as many; thick soil becomes two boxes: none is longer than 0.5 m.
-  TEST(Merger, FilmsKeepPointsForBoxesOfHalfACell)
+  // Eight boxes in a row, 0.1 m long and 0.2 m high, are neighbours. A film
+  // keeps six points in a cell: half as many again as boxes of half a cell
+  // need. Thick soil becomes two boxes: none may be longer than 0.5 m.
+  TEST(Merger, FilmsAreMergedOnlyInFullCells)
   {
     for (const bool is_thin : {true, false})
       {
         Merging<2>   core;
-        Materials<2> materials({{"clay", "linear elastic"}});
+        Materials<2> materials(
+          {{"clay", "linear elastic"}, {"rubber", "neo-Hookean"}});
         materials.assign({"soil"}, {"clay"});
         core.merger.open_accounts(core.accounts);
         for (unsigned int i = 0; i < 8; ++i)
@@ -310,7 +311,7 @@ namespace
             core.points.data(core.points.reference_volume)[p] = 1.;
         core.sort();
         core.merger.apply(core, core.splitter, materials);
-        EXPECT_EQ(core.points.size(), is_thin ? 4u : 2u);
+        EXPECT_EQ(core.points.size(), is_thin ? 6u : 2u);
       }
   }
 
