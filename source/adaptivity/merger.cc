@@ -20,6 +20,12 @@ namespace talus
     /// Stretch that a merged point must be able to bear before a split [-].
     constexpr double margin = 1.25;
 
+    /// Number of points of a cell down to which a film is merged: half as many
+    /// again as boxes of half a cell need. A film one point thick has a third
+    /// of this number and keeps its neighbours.
+    template <int dim>
+    constexpr unsigned int n_in_film = 3u << (dim - 1);
+
     /// Misfit by round-off of boxes that fit exactly [-].
     constexpr double round_off = 1e-12;
   } // namespace
@@ -107,7 +113,8 @@ namespace talus
 
 
 
-  /// Merge pairs of members_ along @p axis. Returns the kinetic energy lost, J.
+  /// Merge pairs of members_ along @p axis while there are more than @p n_kept.
+  /// Returns the kinetic energy lost, J.
   ///
   /// Each point, in the order of positions, is merged with the best fitting of
   /// the points behind until none fits. A row of boxes is thus merged from its
@@ -120,6 +127,7 @@ namespace talus
                            Points<dim>         &points,
                            const BoxRule        rule,
                            const double         cell_size,
+                           const std::size_t    n_kept,
                            const Splitter<dim> &splitter)
   {
     const auto is_lower = [&](const unsigned int p, const unsigned int q) {
@@ -133,7 +141,7 @@ namespace talus
     };
     std::sort(members_.begin(), members_.end(), is_lower);
     double loss = 0;
-    for (std::size_t i = 0; i < members_.size();)
+    for (std::size_t i = 0; i < members_.size() && members_.size() > n_kept;)
       {
         std::size_t                   partner = 0;
         std::optional<JointCell<dim>> best;
@@ -176,17 +184,16 @@ namespace talus
     double loss = 0;
     for (const Segment &segment : points.segments())
       {
-        if (is_kept_ && is_kept_(segment))
-          continue;
-        const Cell<dim> &cell = grid.cells()[segment.cell];
-        const double     size = cell.size * (cell.uniform ? 1. : 0.5);
+        const std::size_t n_kept = (n_kept_ ? n_kept_(segment) : 0);
+        const Cell<dim>  &cell   = grid.cells()[segment.cell];
+        const double      size   = cell.size * (cell.uniform ? 1. : 0.5);
         members_.clear();
         for (unsigned int p = segment.begin; p < segment.end; ++p)
           if (merge_ == "all" || points.data(points.generation)[p] > 0)
             members_.push_back(p);
         double of_segment = 0;
         for (unsigned int d = 0; d < dim; ++d)
-          of_segment += merge_along(d, points, rule, size, splitter);
+          of_segment += merge_along(d, points, rule, size, n_kept, splitter);
         loss += of_segment *
                 (added_mass.empty() ? 1. : 1. + added_mass[segment.body]);
       }
@@ -299,9 +306,12 @@ namespace talus
                      const Materials<dim> &materials)
   {
     sum_volumes(state.points, state.grid, state.nodes);
-    is_kept_ = [&](const Segment &segment) {
-      return materials.of_body(segment.body).is_hyperelastic() ||
-             is_film(state.grid.cells()[segment.cell], state.nodes);
+    n_kept_ = [&](const Segment &segment) -> std::size_t {
+      if (materials.of_body(segment.body).is_hyperelastic())
+        return state.points.size();
+      return is_film(state.grid.cells()[segment.cell], state.nodes)
+               ? n_in_film<dim>
+               : 0;
     };
     state.accounts.energy("merging work") +=
       merge(state.points,

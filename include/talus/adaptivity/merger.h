@@ -131,6 +131,7 @@ namespace talus
                 Points<dim>         &points,
                 BoxRule              rule,
                 double               cell_size,
+                std::size_t          n_kept,
                 const Splitter<dim> &splitter);
     double
     merge_pair(Points<dim>          &points,
@@ -145,10 +146,10 @@ namespace talus
     double       length_    = 0.5;
     double       tolerance_ = 0.15;
 
-    /// Whether the points of a segment are not merged: in a film, and of
-    /// hyperelastic laws, whose stress is a function of F, which joint edges
-    /// would change.
-    std::function<bool(const Segment &)> is_kept_;
+    /// Number of points down to which a segment is merged: in a film more than
+    /// boxes of half a cell need. All points of hyperelastic laws are kept,
+    /// as joint edges would change F, of which the stress is a function.
+    std::function<std::size_t(const Segment &)> n_kept_;
 
     std::vector<unsigned int> members_; ///< points of the current segment
     std::vector<unsigned int> removed_;

@@ -279,7 +279,7 @@ namespace
       }
     core.sort();
     core.merger.apply(core, core.splitter, materials);
-    EXPECT_EQ(core.points.size(), 4u) << "a film is merged";
+    EXPECT_EQ(core.points.size(), 4u) << "a film of two points";
     for (unsigned int p = 0; p < 4; ++p)
       core.points.data(core.points.reference_volume)[p] = 1.;
     core.merger.apply(core, core.splitter, materials);
@@ -288,6 +288,31 @@ namespace
       ++n[core.points.data(core.points.body)[p]];
     EXPECT_EQ(n[0], 2u);
     EXPECT_EQ(n[1], 1u);
+  }
+
+
+
+  // Eight boxes in a row, 0.1 m long and 0.2 m high, are neighbours. A film
+  // keeps six points in a cell: half as many again as boxes of half a cell
+  // need. Thick soil becomes two boxes: none may be longer than 0.5 m.
+  TEST(Merger, FilmsAreMergedOnlyInFullCells)
+  {
+    for (const bool is_thin : {true, false})
+      {
+        Merging<2>   core;
+        Materials<2> materials(
+          {{"clay", "linear elastic"}, {"rubber", "neo-Hookean"}});
+        materials.assign({"soil"}, {"clay"});
+        core.merger.open_accounts(core.accounts);
+        for (unsigned int i = 0; i < 8; ++i)
+          core.add({1.15 + 0.1 * i, 1.1}, Point<2>(0.1, 0.2));
+        if (!is_thin)
+          for (unsigned int p = 0; p < 8; ++p)
+            core.points.data(core.points.reference_volume)[p] = 1.;
+        core.sort();
+        core.merger.apply(core, core.splitter, materials);
+        EXPECT_EQ(core.points.size(), is_thin ? 6u : 2u);
+      }
   }
 
 
