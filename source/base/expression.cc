@@ -147,7 +147,6 @@ namespace talus
       parser.DefineFun("sec", mu_sec);
       parser.DefineFun("log", mu_log);
       parser.DefineFun("pow", mu_pow);
-      parser.DefineFun("erf", mu_erf);
       parser.DefineFun("erfc", mu_erfc);
       parser.DefineFun("rand_seed", mu_rand_seed, false);
       parser.DefineFun("rand", mu_rand, false);

@@ -117,32 +117,15 @@ namespace talus
 
 
 
-  /// Fill the table of the first segment in each cell, and the bounding boxes
-  /// of the segments near facets.
+  /// Fill the table of the first segment in each cell.
   template <int dim>
   void
   FacetCoverage<dim>::index_segments(const State<dim> &state)
   {
-    const Points<dim> &points   = state.points;
-    const auto        &segments = points.segments();
+    const auto &segments = state.points.segments();
     first_segment_.assign(state.grid.n_owned_cells(), segments.size());
-    extents_.resize(segments.size());
     for (unsigned int s = segments.size(); s-- > 0;)
-      {
-        first_segment_[segments[s].cell] = s;
-        if (!facets_.is_near(segments[s].cell))
-          continue;
-        auto &[lower, upper] = extents_[s];
-        lower = upper = load_place(points, points.position, segments[s].begin);
-        for (unsigned int p = segments[s].begin; p < segments[s].end; ++p)
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              const double x    = points.data(points.position, d)[p];
-              const double half = 0.5 * points.data(points.box_length, d)[p];
-              lower[d]          = std::min(lower[d], x - half);
-              upper[d]          = std::max(upper[d], x + half);
-            }
-      }
+      first_segment_[segments[s].cell] = s;
   }
 
 
@@ -264,31 +247,27 @@ namespace talus
 
   namespace
   {
-    /// Return whether a box lies above, below or beside all sample points of a
-    /// facet. The columns ascend along each axis.
+    /// Return whether a box reaches no column of the sample points of a facet.
+    /// The columns ascend along each axis.
     /// @param x centre of the box, m
     /// @param half half lengths of the box, m
-    /// @param h size of the cell, m
+    /// @param beyond reach beyond the ends of the box, m
     template <int dim, typename Samples>
     bool
-    misses(const ContactFacet<dim> &facet,
-           const Samples           &samples,
-           const Point<dim>        &x,
-           const Tensor<1, dim>    &half,
-           const double             h)
+    is_beside(const Samples        &samples,
+              const Point<dim>     &x,
+              const Tensor<1, dim> &half,
+              const double          beyond)
     {
-      const double distance = facet.distance_from_plane(x);
-      const double support  = support_of_box(half, facet.normal);
-      bool result = distance - support >= largest_gap_of_covering_box * h ||
-                    distance + support <= 0;
       for (unsigned int k = 0; k < dim - 1; ++k)
         {
           const unsigned int d     = across(samples.axis, k);
-          const double       reach = half[d] + h / 3.;
-          result = result || samples.column[k].front() - x[d] > reach ||
-                   x[d] - samples.column[k].back() > reach;
+          const double       reach = half[d] + beyond;
+          if (samples.column[k].front() - x[d] > reach ||
+              x[d] - samples.column[k].back() > reach)
+            return true;
         }
-      return result;
+      return false;
     }
   } // namespace
 
@@ -315,25 +294,20 @@ namespace talus
     for (unsigned int s = first_segment_[c];
          s < segments.size() && segments[s].cell == c;
          ++s)
-      {
-        const auto &[lower, upper] = extents_[s];
-        if (misses(facet,
-                   samples,
-                   lower + 0.5 * (upper - lower) + shift,
-                   (0.5 + 1e-9) * (upper - lower), // despite round-off
-                   h))
-          continue;
-        for (unsigned int p = segments[s].begin; p < segments[s].end; ++p)
-          {
-            const Point<dim> x = load_place(points, points.position, p) + shift;
-            const Tensor<1, dim> half = half_lengths_of_box(points, p);
-            if (misses(facet, samples, x, half, h))
-              continue;
-            const Reached in_plan = reached_in_plan(samples, x, half, h / 3.);
-            for (unsigned int k = 0; k < reached.from.size(); ++k)
-              reached.from[k] |= in_plan.from[k] & samples.places;
-          }
-      }
+      for (unsigned int p = segments[s].begin; p < segments[s].end; ++p)
+        {
+          const Point<dim> x = load_place(points, points.position, p) + shift;
+          const Tensor<1, dim> half     = half_lengths_of_box(points, p);
+          const double         distance = facet.distance_from_plane(x);
+          const double         support  = support_of_box(half, facet.normal);
+          // Most boxes lie above, below or beside all sample points.
+          if (distance - support >= largest_gap_of_covering_box * h ||
+              distance + support <= 0 || is_beside(samples, x, half, h / 3.))
+            continue;
+          const Reached in_plan = reached_in_plan(samples, x, half, h / 3.);
+          for (unsigned int k = 0; k < reached.from.size(); ++k)
+            reached.from[k] |= in_plan.from[k] & samples.places;
+        }
   }
 
 

@@ -13,8 +13,8 @@ namespace talus
     const Obstacle<dim> &obstacle = obstacles_[facet.obstacle];
     if (obstacle.moves() || !obstacle.shape().is_costly())
       return nullptr;
-    const Key key(facet.key, facet.obstacle);
-    auto      made = tables_.find(key);
+    const auto key  = std::make_pair(facet.key, facet.obstacle);
+    auto       made = tables_.find(key);
     if (made == tables_.end())
       made =
         tables_.emplace(key, SurfaceTable<dim>(obstacle.shape(), cell.box()))

@@ -135,7 +135,6 @@ namespace talus
     std::vector<Reached>                   reached_;
     std::vector<unsigned int>              n_samples_;     ///< 0: not sampled
     std::vector<unsigned int>              first_segment_; ///< by owned cell
-    std::vector<Box<dim>>                  extents_;       ///< by segment, m
     std::vector<double>                    shares_;        ///< by owned facet
     NeighborExchange                       messages_;
     std::vector<NeighborExchange::Message> outgoing_; ///< by neighbour

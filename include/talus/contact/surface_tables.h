@@ -5,9 +5,7 @@
 #include <talus/contact/facets.h>
 #include <talus/contact/surface_table.h>
 
-#include <boost/functional/hash.hpp>
-
-#include <unordered_map>
+#include <map>
 #include <utility>
 
 namespace talus
@@ -37,11 +35,9 @@ namespace talus
     }
 
   private:
-    /// Key of a cell, and number of an obstacle.
-    using Key = std::pair<unsigned long, unsigned int>;
-
-    const Obstacles<dim>                                        &obstacles_;
-    std::unordered_map<Key, SurfaceTable<dim>, boost::hash<Key>> tables_;
+    const Obstacles<dim> &obstacles_;
+    /// By key of the cell and obstacle.
+    std::map<std::pair<unsigned long, unsigned int>, SurfaceTable<dim>> tables_;
   };
 } // namespace talus
 
