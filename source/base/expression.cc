@@ -3,15 +3,16 @@
 #include <talus/base/errors.h>
 #include <talus/base/expression.h>
 
+#include <deal.II/base/mu_parser_internal.h>
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
+
+#include <muParser.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <iostream>
 #include <regex>
-#include <sstream>
 
 namespace talus
 {
@@ -19,40 +20,6 @@ namespace talus
 
   namespace
   {
-    /// Return the parse error of an expression; empty without error. muParser
-    /// parses at the first evaluation, so the function evaluates once. The
-    /// exception is caught because only the caller knows the name of the
-    /// parameter; std::cerr is silenced because deal.II prints details before
-    /// the exception.
-    template <int dim>
-    std::string
-    parse_error(const FunctionParser<dim> &function)
-    {
-      std::ostringstream    details;
-      std::streambuf *const terminal = std::cerr.rdbuf(details.rdbuf());
-      std::string           error;
-      try
-        {
-          for (unsigned int c = 0; c < function.n_components; ++c)
-            function.value(Point<dim>(), c);
-        }
-      catch (const ExceptionBase &exception)
-        {
-          std::ostringstream reason;
-          exception.print_info(reason);
-          error = std::regex_replace(Utilities::trim(reason.str()),
-                                     std::regex("^Parsing Error at Column "
-                                                "\\d+\\. The parser said: "),
-                                     "");
-          if (!error.empty() && error.back() != '.')
-            error += '.';
-        }
-      std::cerr.rdbuf(terminal);
-      return error;
-    }
-
-
-
     /// Whether the expression contains a single =, an assignment in muParser.
     bool
     has_assignment(const std::string &expression)
@@ -111,6 +78,87 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Return @p base to the power of @p exponent. Squares and cubes are
+    /// frequent, and products cost less than std::pow().
+    double
+    power_of(const double base, const double exponent)
+    {
+      return exponent == 2.   ? base * base
+             : exponent == 3. ? base * base * base
+                              : std::pow(base, exponent);
+    }
+  } // namespace
+
+
+
+  /// An expression with the functions of deal.II's FunctionParser, whose values
+  /// take a lock each.
+  struct Formula
+  {
+    /// Parse @p expression; the first evaluation finds the errors. The operator
+    /// ^ is then called ** because muParser does not replace operators of its
+    /// own.
+    Formula(const std::vector<std::string>      &names,
+            std::string                          expression,
+            const std::map<std::string, double> &constants)
+      : variables(names.size())
+    {
+      try
+        {
+          define(names, constants);
+          // deal.II permits spaces behind the names of functions.
+          for (const auto &name :
+               internal::FunctionParser::get_function_names())
+            expression =
+              std::regex_replace(expression, std::regex(name + "\\s+"), name);
+          parser.SetExpr(expression);
+          parser.Eval();
+          parser.SetExpr(
+            std::regex_replace(expression, std::regex("\\^"), "**"));
+        }
+      catch (const mu::ParserError &exception)
+        {
+          error = Utilities::trim(exception.GetMsg());
+          if (!error.empty() && error.back() != '.')
+            error += '.';
+        }
+    }
+
+    void
+    define(const std::vector<std::string>      &names,
+           const std::map<std::string, double> &constants)
+    {
+      using namespace internal::FunctionParser;
+      for (const auto &[name, value] : constants)
+        parser.DefineConst(name, value);
+      for (unsigned int i = 0; i < names.size(); ++i)
+        parser.DefineVar(names[i], &variables[i]);
+      parser.DefineOprt("|", mu_or, 1);
+      parser.DefineOprt("&", mu_and, 2);
+      parser.DefineOprt("**", power_of, mu::prPOW, mu::oaRIGHT);
+      parser.DefineFun("if", mu_if);
+      parser.DefineFun("int", mu_int);
+      parser.DefineFun("ceil", mu_ceil);
+      parser.DefineFun("cot", mu_cot);
+      parser.DefineFun("csc", mu_csc);
+      parser.DefineFun("floor", mu_floor);
+      parser.DefineFun("sec", mu_sec);
+      parser.DefineFun("log", mu_log);
+      parser.DefineFun("pow", mu_pow);
+      parser.DefineFun("erfc", mu_erfc);
+      parser.DefineFun("rand_seed", mu_rand_seed, false);
+      parser.DefineFun("rand", mu_rand, false);
+    }
+
+    std::vector<double> variables;
+    std::string         error; ///< empty without error
+    mu::Parser          parser;
+  };
+
+
+
   Constants::Constants()
     : ParameterAcceptor("/")
   {
@@ -152,13 +200,9 @@ namespace talus
                                  "'; expected one value after the first =. "
                                  "Write decimals with a point and separate "
                                  "constants by semicolons.")));
-        FunctionParser<1> value(1);
-        // deal.II needs a variable. A name of the user must not match: x would
-        // silently be 0.
-        value.initialize("unused_variable", expression, values);
-        // Without variables the value does not depend on the position.
-        std::string  error  = parse_error(value);
-        const double number = error.empty() ? value.value(Point<1>()) : 0.;
+        Formula      value({}, expression, values);
+        std::string  error  = value.error;
+        const double number = error.empty() ? value.parser.Eval() : 0.;
         if (!std::isfinite(number))
           error = text("it is ", number, '.');
         AssertThrow(error.empty(),
@@ -226,7 +270,6 @@ namespace talus
     : name_(name)
     , expressions_(expressions)
     , variables_(variables)
-    , function_(n_components)
   {
     check_form(name, expressions, n_components);
     const auto known = constants.values();
@@ -239,11 +282,13 @@ namespace talus
                                name,
                                " the name is a variable. Give the constant "
                                "another name.")));
-    function_.initialize(variables,
-                         expressions,
-                         known,
-                         /*time_dependent=*/true);
-    const std::string error = parse_error(function_);
+    std::string error;
+    for (const auto &part : Utilities::split_string_list(expressions, ';'))
+      {
+        formulas_.push_back(std::make_shared<Formula>(names, part, known));
+        if (error.empty())
+          error = formulas_.back()->error;
+      }
     if (error.empty())
       return;
     std::vector<std::string> list;
@@ -294,6 +339,21 @@ namespace talus
                : text(" with (", variables, ") = (", x, ' ', t, ')');
     }
   } // namespace
+
+
+
+  template <int dim>
+  double
+  Expression<dim>::value(const Point<dim>  &x,
+                         const double       t,
+                         const unsigned int component)
+  {
+    Formula &formula = *formulas_[component];
+    for (unsigned int d = 0; d < dim; ++d)
+      formula.variables[d] = x[d];
+    formula.variables[dim] = t;
+    return formula.parser.Eval();
+  }
 
 
 

@@ -155,6 +155,20 @@ namespace talus
 
 
   template <int dim>
+  bool
+  Ground<dim>::encloses(const Point<dim> &x) const
+  {
+    if (is_bottom_face())
+      return x[1] <= domain_.lower[1];
+    const Members members = members_in_column(x);
+    return std::any_of(members.begin(), members.end(), [&](const auto k) {
+      return (*obstacles_)[k].contains(x);
+    });
+  }
+
+
+
+  template <int dim>
   Tensor<1, dim>
   Ground<dim>::layer_normal(const Point<dim> &x) const
   {

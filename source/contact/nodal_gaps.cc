@@ -52,7 +52,10 @@ namespace talus
     // open: only the owner knows all surfaces near a node, and whole records
     // are exchanged.
     for (const unsigned int node : present_)
-      std::fill_n(record(node), width_, none);
+      {
+        std::fill_n(record(node), width_, none);
+        fractions_[node] = 0.;
+      }
     present_.clear();
     n_open_ = 0;
     for (const NodeAndSurface &pair : pairs)
@@ -91,11 +94,9 @@ namespace talus
         if (node < n_owned)
           record(node)[n_slots_] = volume_fraction(node);
     exchange_.copy_to_ghosts(records_.data(), none);
-    for (const NodeAndSurface &pair : pairs)
-      {
-        const double fraction = record(pair.node)[n_slots_];
-        fractions_[pair.node] = (fraction == none ? 0. : fraction);
-      }
+    for (const unsigned int node : present_)
+      if (const double fraction = record(node)[n_slots_]; fraction != none)
+        fractions_[node] = fraction;
   }
 
 

@@ -97,7 +97,7 @@ namespace talus
     for (unsigned int d = 0; d < dim; d += 2)
       arguments[n++] = x[d];
     for (const Named &other : others_)
-      arguments[n++] = other.second->at(x).height;
+      arguments[n++] = other.second->height(x);
     return evaluate(arguments);
   }
 

@@ -40,6 +40,15 @@ namespace talus
 
 
   template <int dim>
+  bool
+  SideOfSurface<dim>::contains(const Point<dim> &x) const
+  {
+    return sign_ * (x[1] - surface_->height(x)) <= 0.;
+  }
+
+
+
+  template <int dim>
   Box<dim>
   SideOfSurface<dim>::bounding_box() const
   {

@@ -564,9 +564,9 @@ namespace talus
         double soil = 0;
         for (const unsigned int node : facet.node)
           soil += mass(node);
-        if (soil > 0)
-          for (const unsigned int node : facet.node)
-            area_per_mass_[node] += facet.vector_area.norm() / soil;
+        const double added = soil > 0 ? facet.vector_area.norm() / soil : 0.;
+        for (const unsigned int node : facet.node)
+          area_per_mass_[node] += added;
       }
     for (const HangingNode *const hanging : hanging_nodes_)
       {
@@ -584,10 +584,11 @@ namespace talus
                                            area_per_mass_[master];
     for (SurfaceFacet<dim> &facet : facets_)
       {
-        facet.mobility = 0;
+        const double size = facet.vector_area.norm();
+        facet.mobility    = 0;
         for (unsigned int v = 0; v < facet.node.size(); ++v)
-          facet.mobility += facet.share[v] * area_per_mass_[facet.node[v]] /
-                            facet.vector_area.norm();
+          facet.mobility +=
+            facet.share[v] * area_per_mass_[facet.node[v]] / size;
       }
   }
 

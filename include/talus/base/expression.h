@@ -2,11 +2,13 @@
 #ifndef talus_base_expression_h
 #define talus_base_expression_h
 
-#include <deal.II/base/function_parser.h>
 #include <deal.II/base/parameter_acceptor.h>
+#include <deal.II/base/point.h>
 
 #include <map>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace talus
 {
@@ -24,6 +26,10 @@ namespace talus
   private:
     std::string definitions_;
   };
+
+
+
+  struct Formula;
 
 
 
@@ -54,23 +60,17 @@ namespace talus
 
     /// Return the value of a component at @p x, m, and time @p t, s.
     double
-    value(const dealii::Point<dim> &x,
-          const double              t,
-          const unsigned int        component)
-    {
-      function_.set_time(t);
-      return function_.value(x, component);
-    }
+    value(const dealii::Point<dim> &x, double t, unsigned int component);
 
     /// Return value(); throws ExcPoint if it is not finite.
     double
     finite_value(const dealii::Point<dim> &x, double t, unsigned int component);
 
   private:
-    std::string                 name_;
-    std::string                 expressions_;
-    std::string                 variables_;
-    dealii::FunctionParser<dim> function_;
+    std::string                           name_;
+    std::string                           expressions_;
+    std::string                           variables_;
+    std::vector<std::shared_ptr<Formula>> formulas_; ///< by component
   };
 } // namespace talus
 

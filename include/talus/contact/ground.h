@@ -55,12 +55,7 @@ namespace talus
     /// Whether @p x is inside the ground or on its surface. Costs less than
     /// elevation().
     bool
-    encloses(const dealii::Point<dim> &x) const
-    {
-      return is_bottom_face()
-               ? x[1] <= domain_.lower[1]
-               : obstacles_->signed_distance(x, members_in_column(x)) <= 0;
-    }
+    encloses(const dealii::Point<dim> &x) const;
 
     /// Return y of the ground below @p x, m; if @p x is inside the ground, y of
     /// the surface above @p x.

@@ -68,6 +68,13 @@ namespace talus
       return shape_->signed_distance(at_start(x));
     }
 
+    /// Whether the obstacle, including its surface, contains @p x.
+    bool
+    contains(const dealii::Point<dim> &x) const
+    {
+      return shape_->contains(at_start(x));
+    }
+
     /// Unit normal out of the obstacle at the place of the surface nearest to
     /// @p x.
     dealii::Tensor<1, dim>

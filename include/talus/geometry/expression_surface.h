@@ -39,6 +39,9 @@ namespace talus
     Value
     at(const dealii::Point<dim> &x) const override;
 
+    double
+    height(const dealii::Point<dim> &x) const override;
+
     bool
     is_known_at(const dealii::Point<dim> &x) const override;
 
@@ -52,8 +55,6 @@ namespace talus
 
     double
     evaluate(const Arguments &arguments) const;
-    double
-    height(const dealii::Point<dim> &x) const;
     Value
     compute_value(const dealii::Point<dim> &x) const;
     double

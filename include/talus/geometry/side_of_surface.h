@@ -36,6 +36,9 @@ namespace talus
     std::pair<double, dealii::Tensor<1, dim>>
     distance_and_normal(const dealii::Point<dim> &x) const override;
 
+    bool
+    contains(const dealii::Point<dim> &x) const override;
+
     /// Infinite box.
     Box<dim>
     bounding_box() const override;

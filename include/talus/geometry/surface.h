@@ -29,6 +29,13 @@ namespace talus
     virtual Value
     at(const dealii::Point<dim> &x) const = 0;
 
+    /// Return the height of at(), perhaps at lower cost.
+    virtual double
+    height(const dealii::Point<dim> &x) const
+    {
+      return at(x).height;
+    }
+
     /// Return whether the surface is defined at the place of @p x in plan.
     virtual bool
     is_known_at(const dealii::Point<dim> &x) const = 0;

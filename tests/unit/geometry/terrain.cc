@@ -10,6 +10,7 @@
 #include <talus/geometry/side_of_surface.h>
 #include <talus/geometry/terrain.h>
 
+#include <deal.II/base/function_parser.h>
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <gtest/gtest.h>
@@ -20,6 +21,7 @@
 #include <sstream>
 
 using namespace talus;
+using dealii::FunctionParser;
 using dealii::Point;
 using dealii::Tensor;
 
@@ -334,6 +336,11 @@ TEST_F(Layers, ExpressionsOfOtherSurfaces)
         m > s ? mudline->at(x).slope - 0.01 * Point<3>(1., 0., 0.)
               : Tensor<1, 3>({0.1, 0., -0.004 * x[2]});
       EXPECT_LT((value.slope - expected).norm(), 1e-8);
+      EXPECT_NEAR(lower->height(x), value.height, 1e-12);
+      const auto shape = side<3>(lower, SideOfSurface<3>::Side::below);
+      for (const double dy : {-1e-6, 1e-6})
+        EXPECT_EQ(shape->contains(Point<3>(x[0], value.height + dy, x[2])),
+                  dy < 0);
     }
   EXPECT_NE(
     error([&] {
@@ -344,6 +351,34 @@ TEST_F(Layers, ExpressionsOfOtherSurfaces)
               expression<2>("mudlin - 5");
             }).find("'Upper surface' = 'mudlin - 5' cannot be understood"),
             std::string::npos);
+}
+
+
+
+// Operators and functions are those of deal.II's FunctionParser.
+TEST_F(Layers, OperatorsOfExpressions)
+{
+  for (const std::string text : {"-x^2",
+                                 "2^x^2",
+                                 "2^-x + x^-2^2",
+                                 "3*x^3 - ((x - 5)/4)^2/2^0.5",
+                                 "if (x > 1, x, 2) + (x > 1 & x < 2 | 0)",
+                                 "sqrt (x) + erfc(x) + int(x) + pow(x, 2.5)",
+                                 "log(x) + cot(x) + csc(x) + sec(x)",
+                                 "ceil(x) + floor(x)"})
+    {
+      FunctionParser<1> expected(1);
+      expected.initialize("x", text, std::map<std::string, double>());
+      const auto surface = expression<2>(text);
+      for (const double x : {0.3, 1.7, 2.5})
+        {
+          const double value = expected.value(Point<1>(x));
+          EXPECT_NEAR(surface->at(Point<2>(x, 0.)).height,
+                      value,
+                      1e-14 * std::max(1., std::abs(value)))
+            << text;
+        }
+    }
 }
 
 
