@@ -199,6 +199,32 @@ namespace talus
 
 
 
+  /// A stiff stabilization would let the factor creep up with the length.
+  template <int dim>
+  bool
+  Equilibrium<dim>::follow(StaticProblem<dim> &problem,
+                           StrengthPath       &path,
+                           const Observer     &observe)
+  {
+    StaticOptions options = options_;
+    options.ghost_penalty *= 1e-4;
+    newton_.begin(problem, options);
+    imbalance_ = newton_.equations().imbalance();
+    const auto outcome =
+      newton_.follow(problem, path, [&](const NewtonIteration &iteration) {
+        return observe({n_steps_ + 1, 1., iteration});
+      });
+    failure_    = outcome.failure;
+    is_stopped_ = outcome.is_stopped;
+    if (!outcome.converged)
+      return false;
+    newton_.commit(problem);
+    ++n_steps_;
+    return true;
+  }
+
+
+
   /// Return whether the imbalance fell by 10 % in the last @p n_steps settling
   /// steps, or fewer steps were taken.
   template <int dim>

@@ -208,6 +208,158 @@ namespace talus
 
 
 
+  /// Divide the strengths of soil and beds by @p factor.
+  template <int dim>
+  void
+  Newton<dim>::set_factor(StaticProblem<dim> &problem,
+                          StrengthPath       &path,
+                          const double        factor)
+  {
+    path.factor = factor;
+    path.set_factor(factor);
+    contact().renew_limits(problem);
+  }
+
+
+
+  /// As solve(): contact states are fixed within a loop and updated between the
+  /// loops. The next direction is that of the step just found.
+  template <int dim>
+  typename Newton<dim>::Outcome
+  Newton<dim>::follow(StaticProblem<dim> &problem,
+                      StrengthPath       &path,
+                      const Observer     &observe)
+  {
+    equations_.set_load_fraction(1.);
+    u_ = equations_.unknowns().field();
+    for (std::size_t k = 0; k < path.direction.size(); ++k)
+      u_[k] = path.length * path.direction[k];
+    const StaticContact<dim> contact_before = contact();
+    const StrengthPath       before         = path;
+    Outcome                  outcome;
+    for (unsigned int trial = 0; trial < 50; ++trial)
+      {
+        equations_.constrain(problem);
+        outcome = path_loop(problem, path, observe);
+        if (!outcome.converged)
+          break;
+        mechanism_ = u_;
+        if (equations_.update_contact(
+              problem, residual_, u_, options_.facet_tolerance) == 0)
+          {
+            path.direction    = u_;
+            const double norm = equations_.unknowns().norm(u_);
+            for (double &component : path.direction)
+              component /= norm;
+            return outcome;
+          }
+      }
+    path                 = before;
+    equations_.contact() = contact_before;
+    set_factor(problem, path, before.factor);
+    outcome.converged = false;
+    return outcome;
+  }
+
+
+
+  /// The residual is linear in the factor but for yield, so a difference over a
+  /// millionth gives its derivative. It is computed first: the tangent is that
+  /// of the last residual.
+  template <int dim>
+  typename Newton<dim>::Outcome
+  Newton<dim>::path_loop(StaticProblem<dim> &problem,
+                         StrengthPath       &path,
+                         const Observer     &observe)
+  {
+    const Unknowns<dim> &unknowns = equations_.unknowns();
+    constexpr double     step     = 1e-6;
+    std::vector<double>  residuals, by_factor;
+    for (unsigned int i = 0;; ++i)
+      {
+        const double factor = path.factor;
+        set_factor(problem, path, (1. + step) * factor);
+        equations_.compute_residual(problem, u_, by_factor);
+        set_factor(problem, path, factor);
+        equations_.compute_residual(problem, u_, residual_);
+        for (std::size_t k = 0; k < by_factor.size(); ++k)
+          by_factor[k] = (by_factor[k] - residual_[k]) / (step * factor);
+        NewtonIteration iteration{i,
+                                  unknowns.norm(residual_) /
+                                    equations_.reference_force(),
+                                  0,
+                                  0.,
+                                  1.};
+        if (!observe(iteration))
+          return {false, "The search was stopped", true};
+        const double along =
+          path.direction.empty() ? 0. : unknowns.product(path.direction, u_);
+        residuals.push_back(iteration.residual);
+        if (iteration.residual <= options_.tolerance &&
+            !path.direction.empty() &&
+            std::abs(along - path.length) <= 1e-6 * std::abs(path.length))
+          return {true, "", false, iteration.residual};
+        std::string error = divergence(residuals);
+        if (i == options_.largest_iterations ||
+            !std::isfinite(iteration.residual))
+          error = "no convergence";
+        if (error.empty())
+          error = path_update(path, by_factor, along);
+        if (!error.empty())
+          return failure(text("Newton's method diverges: ", error));
+      }
+  }
+
+
+
+  /// Take a step by two right-hand sides: the displacements balance the
+  /// residual and follow the factor, and the change of the factor gives the
+  /// step its length, of which @p along is there. At most 3 % at once: the
+  /// tangent of a state with few yielded points would overshoot. Where soil is
+  /// elastic the factor has no influence, and grows until points yield.
+  template <int dim>
+  std::string
+  Newton<dim>::path_update(StrengthPath              &path,
+                           const std::vector<double> &by_factor,
+                           const double               along)
+  {
+    const Unknowns<dim> &unknowns = equations_.unknowns();
+    const auto balance = equations_.solve_tangent(linear_solver_, residual_);
+    if (!balance.failure.empty())
+      return balance.failure;
+    if (!(balance.largest < 10. * extent_))
+      return "the matrix is nearly singular: soil can move freely";
+    const auto follow =
+      equations_.solve_tangent(linear_solver_, by_factor, true);
+    if (!follow.failure.empty())
+      return follow.failure;
+    last_correction_ = follow.field;
+    if (path.direction.empty())
+      {
+        const double norm = unknowns.norm(follow.field);
+        if (!(norm > 0.))
+          return "the soil is elastic, and no factor changes it";
+        path.direction = follow.field;
+        for (double &component : path.direction)
+          component /= norm;
+        path.length =
+          unknowns.product(path.direction, balance.field) + norm * path.change;
+      }
+    const double slope   = unknowns.product(path.direction, follow.field);
+    const double missing = path.length - along;
+    double       change =
+      (missing - unknowns.product(path.direction, balance.field)) / slope;
+    if (!(slope * 0.1 * path.factor > 1e-3 * std::abs(missing)))
+      change = 0.01 * path.factor;
+    change = std::clamp(change, -0.03 * path.factor, 0.03 * path.factor);
+    for (std::size_t k = 0; k < u_.size(); ++k)
+      u_[k] += balance.field[k] + change * follow.field[k];
+    path.factor += change;
+    return "";
+  }
+
+
+
   /// Take a full Newton step with a new matrix: the tangent comes with the
   /// stress anyway, and a modified Newton method would lose the quadratic
   /// convergence. There are two failures: the linear solver gives up, or the

@@ -504,7 +504,8 @@ namespace talus
   void
   StaticStages<dim>::search_factor()
   {
-    auto state = save();
+    auto state        = save();
+    bool has_followed = false;
     while (!equilibrium_.is_stopped() && !strength_reduction_.is_done())
       {
         const double factor = strength_reduction_.next();
@@ -530,7 +531,104 @@ namespace talus
               equilibrium_.newton().mechanism(state_.points));
           }
         restore(state);
+        if (strength_reduction_.lower() > 0. &&
+            strength_reduction_.upper() > 0. && !has_followed)
+          {
+            has_followed = follow_path();
+            if (has_followed)
+              state = save();
+            else
+              restore(state);
+          }
       }
+  }
+
+
+
+  /// The step grows as long as it is easy, and is cut where it fails. The
+  /// imbalance that standing soil is allowed would exceed the change by the
+  /// factor in the first step and is removed before. At the limit the factor
+  /// stops to grow; softening soil has its limit at the largest factor.
+  template <int dim>
+  bool
+  StaticStages<dim>::follow_path()
+  {
+    constexpr double   accuracy = 1e-3;
+    StrengthPath       path{strength_reduction_.lower(), 0.};
+    const unsigned int stage = stages_.number();
+    path.change              = 0.1 * path.factor;
+    path.set_factor = [&](const double factor) { divide_strength(factor); };
+    StaticOptions options =
+      strength_reduction_.options(path.factor, equilibrium_.options());
+    options.allowed_imbalance = 1e-8;
+    divide_strength(path.factor);
+    solve(options, {stage, path.factor, true});
+    if (equilibrium_.is_stopped())
+      return false;
+    equilibrium_.begin(options);
+    const bool          is_first = is_first_rank(state_.communicator());
+    double              growth = 2., last = path.factor, largest = path.factor;
+    std::vector<double> factors{path.factor};
+    unsigned int        n_failures = 0;
+    while (n_failures < 12 && factors.size() < 60)
+      {
+        StaticProblem<dim> now          = problem();
+        unsigned int       n_iterations = 0;
+        const bool         is_found     = equilibrium_.follow(
+          now, path, [&](const EquilibriumProgress &progress) {
+            ++n_iterations;
+            table_.add({stage, path.factor, true}, progress, is_first);
+            return !Utilities::MPI::logical_or(!remembered_signal().empty(),
+                                               state_.communicator());
+          });
+        table_.end_step({stage, path.factor, true});
+        if (equilibrium_.is_stopped())
+          return false;
+        if (!is_found && path.direction.empty())
+          return false;
+        log_.say(LogLevel::result,
+                 text(std::setprecision(7),
+                      "  path: strength / ",
+                      path.factor,
+                      is_found ? ": stands; " : ": the step fails; ",
+                      n_iterations,
+                      " iterations, length ",
+                      path.length,
+                      is_found ? "" : equilibrium_.failure()));
+        if (!is_found)
+          {
+            if (++n_failures % 4 != 0 && !path.direction.empty())
+              path.length *= 0.4;
+            else
+              {
+                path.direction.clear();
+                path.change *= 0.3;
+              }
+            growth = 1.25;
+            continue;
+          }
+        const double change = path.factor - last;
+        last                = path.factor;
+        largest             = std::max(largest, last);
+        factors.push_back(last);
+        const auto n = factors.size();
+        if (last < (1. - accuracy) * largest ||
+            (n > 3 && std::abs(last - factors[n - 4]) < accuracy * last))
+          {
+            strength_reduction_.record_limit(largest);
+            break;
+          }
+        n_failures = 0;
+        growth     = std::min(2., 1.1 * growth);
+        path.length *=
+          std::min(n_iterations <= 7    ? growth
+                   : n_iterations <= 12 ? 1.2
+                                        : 0.7,
+                   std::max(1., 0.06 * last / std::max(change, 1e-4)));
+      }
+    write_mechanism("mechanism");
+    failure_depth_.record(equilibrium_.newton().mechanism(state_.points));
+    return true;
   }
 
 

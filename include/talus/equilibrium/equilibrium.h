@@ -70,6 +70,14 @@ namespace talus
     bool
     advance(StaticProblem<dim> &problem, const Observer &observe);
 
+    /// Take a step along the @p path of decreasing strength. Returns whether
+    /// it was found; else failure() gives the reason, and nothing has changed.
+    /// Collective.
+    bool
+    follow(StaticProblem<dim> &problem,
+           StrengthPath       &path,
+           const Observer     &observe);
+
     /// Return stresses to the yield surface. To be called after begin() if the
     /// strength has been reduced: nothing moves, but the soil may lose its
     /// balance. Collective.

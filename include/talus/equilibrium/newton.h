@@ -23,6 +23,20 @@ namespace talus
 
 
 
+  /// Place on the path of decreasing strength, and the next step along it.
+  struct StrengthPath
+  {
+    double factor;      ///< that divides strengths [-]
+    double change;      ///< of the factor in a step along the tangent [-]
+    double length = 0.; ///< of the next step along the direction, m
+    /// Displacements of norm 1 at the nodes; empty: those of the tangent.
+    std::vector<double> direction;
+    /// Divides strengths by a factor [-].
+    std::function<void(double)> set_factor;
+  };
+
+
+
   /// Newton's method with the consistent tangent @cite simo1998, for the
   /// displacements of one load step at which stress and loads balance
   /// (StaticEquations).
@@ -56,6 +70,15 @@ namespace talus
     /// points and contact are unchanged. Collective.
     Outcome
     solve(StaticProblem<dim> &problem, double share, const Observer &observe);
+
+    /// Solve for displacements and strength factor of a step of given length
+    /// along the @p path, where the factor is an unknown @cite riks1979: at the
+    /// limit the strength need not be guessed, and no search fails. If the
+    /// solution fails, the path stays where it was. Collective.
+    Outcome
+    follow(StaticProblem<dim> &problem,
+           StrengthPath       &path,
+           const Observer     &observe);
 
     /// Apply the solution to stress and internal variables of the points.
     void
@@ -115,6 +138,17 @@ namespace talus
     /// sentence.
     std::string
     newton_update(StaticProblem<dim> &problem, NewtonIteration &iteration);
+    /// Solve for displacements and factor with fixed contact states.
+    Outcome
+    path_loop(StaticProblem<dim> &problem,
+              StrengthPath       &path,
+              const Observer     &observe);
+    std::string
+    path_update(StrengthPath              &path,
+                const std::vector<double> &by_factor,
+                double                     along);
+    void
+    set_factor(StaticProblem<dim> &problem, StrengthPath &path, double factor);
     double
     line_search(StaticProblem<dim>        &problem,
                 const std::vector<double> &direction);

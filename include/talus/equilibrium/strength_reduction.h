@@ -45,6 +45,13 @@ namespace talus
     void
     record(double factor, bool stands);
 
+    /// Record that @p factor is the largest of the path of decreasing strength.
+    void
+    record_limit(const double factor)
+    {
+      lower_ = upper_ = upper_from_ = factor;
+    }
+
     /// Describe the result in one or two sentences.
     std::string
     result() const;

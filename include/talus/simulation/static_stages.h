@@ -133,6 +133,10 @@ namespace talus
     reduce_strength(const Saved &before);
     void
     search_factor();
+    /// Follow the path of decreasing strength to the limit. Returns whether the
+    /// path could begin: some soil must yield. Collective.
+    bool
+    follow_path();
     void
     start_reduction();
     void
