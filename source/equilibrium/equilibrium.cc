@@ -216,11 +216,12 @@ namespace talus
       });
     failure_    = outcome.failure;
     is_stopped_ = outcome.is_stopped;
-    if (!outcome.converged)
-      return false;
-    newton_.commit(problem);
-    ++n_steps_;
-    return true;
+    if (outcome.converged)
+      {
+        newton_.commit(problem);
+        ++n_steps_;
+      }
+    return outcome.converged;
   }
 
 

@@ -211,54 +211,77 @@ namespace talus
   /// Divide the strengths of soil and beds by @p factor.
   template <int dim>
   void
-  Newton<dim>::set_factor(StaticProblem<dim> &problem,
-                          StrengthPath       &path,
-                          const double        factor)
+  Newton<dim>::set_factor(StaticProblem<dim> &problem, const double factor)
   {
-    path.factor = factor;
-    path.set_factor(factor);
+    problem.divide_strength(factor);
     contact().renew_limits(problem);
   }
 
 
 
-  /// As solve(): contact states are fixed within a loop and updated between the
-  /// loops. The next direction is that of the step just found.
+  /// The next direction is that of the step just found.
   template <int dim>
   typename Newton<dim>::Outcome
   Newton<dim>::follow(StaticProblem<dim> &problem,
                       StrengthPath       &path,
                       const Observer     &observe)
   {
-    equations_.set_load_fraction(1.);
-    u_ = equations_.unknowns().field();
-    for (std::size_t k = 0; k < path.direction.size(); ++k)
-      u_[k] = path.length * path.direction[k];
-    const StaticContact<dim> contact_before = contact();
     const StrengthPath       before         = path;
+    const StaticContact<dim> contact_before = contact();
     Outcome                  outcome;
+    if (path.by_factor)
+      {
+        path.factor += path.change;
+        set_factor(problem, path.factor);
+        outcome = solve(problem, 1., observe);
+      }
+    else
+      outcome = solve_for_factor(problem, path, observe);
+    if (!outcome.converged)
+      {
+        path                 = before;
+        equations_.contact() = contact_before;
+        set_factor(problem, path.factor);
+        return outcome;
+      }
+    if (const double norm = equations_.unknowns().norm(u_); norm > 0.)
+      {
+        path.displacement += norm;
+        path.length    = norm;
+        path.direction = u_;
+        for (double &component : path.direction)
+          component /= norm;
+      }
+    return outcome;
+  }
+
+
+
+  /// As in solve_with_contact(), contact states are fixed within a loop and
+  /// updated between the loops.
+  template <int dim>
+  typename Newton<dim>::Outcome
+  Newton<dim>::solve_for_factor(StaticProblem<dim> &problem,
+                                StrengthPath       &path,
+                                const Observer     &observe)
+  {
+    equations_.set_load_fraction(1.);
+    u_ = path.direction;
+    for (double &component : u_)
+      component *= path.length;
     for (unsigned int trial = 0; trial < 50; ++trial)
       {
         equations_.constrain(problem);
-        outcome = path_loop(problem, path, observe);
+        const Outcome outcome = path_loop(problem, path, observe);
         if (!outcome.converged)
-          break;
+          return outcome;
         mechanism_ = u_;
         if (equations_.update_contact(
               problem, residual_, u_, options_.facet_tolerance) == 0)
-          {
-            path.direction    = u_;
-            const double norm = equations_.unknowns().norm(u_);
-            for (double &component : path.direction)
-              component /= norm;
-            return outcome;
-          }
+          return outcome;
       }
-    path                 = before;
-    equations_.contact() = contact_before;
-    set_factor(problem, path, before.factor);
-    outcome.converged = false;
-    return outcome;
+    return failure(
+      "The contact with seabed and obstacles does not come to rest");
   }
 
 
@@ -278,30 +301,23 @@ namespace talus
     for (unsigned int i = 0;; ++i)
       {
         const double factor = path.factor;
-        set_factor(problem, path, (1. + step) * factor);
+        set_factor(problem, (1. + step) * factor);
         equations_.compute_residual(problem, u_, by_factor);
-        set_factor(problem, path, factor);
+        set_factor(problem, factor);
         equations_.compute_residual(problem, u_, residual_);
         for (std::size_t k = 0; k < by_factor.size(); ++k)
           by_factor[k] = (by_factor[k] - residual_[k]) / (step * factor);
-        NewtonIteration iteration{i,
-                                  unknowns.norm(residual_) /
-                                    equations_.reference_force(),
-                                  0,
-                                  0.,
-                                  1.};
-        if (!observe(iteration))
+        const double residual =
+          unknowns.norm(residual_) / equations_.reference_force();
+        if (!observe({i, residual, 0, 0., 1.}))
           return {false, "The search was stopped", true};
-        const double along =
-          path.direction.empty() ? 0. : unknowns.product(path.direction, u_);
-        residuals.push_back(iteration.residual);
-        if (iteration.residual <= options_.tolerance &&
-            !path.direction.empty() &&
-            std::abs(along - path.length) <= 1e-6 * std::abs(path.length))
-          return {true, "", false, iteration.residual};
+        const double along = unknowns.product(path.direction, u_);
+        if (residual <= options_.tolerance &&
+            std::abs(along - path.length) <= 1e-6 * path.length)
+          return {true, "", false, residual};
+        residuals.push_back(residual);
         std::string error = divergence(residuals);
-        if (i == options_.largest_iterations ||
-            !std::isfinite(iteration.residual))
+        if (i == options_.largest_iterations || !std::isfinite(residual))
           error = "no convergence";
         if (error.empty())
           error = path_update(path, by_factor, along);
@@ -333,18 +349,7 @@ namespace talus
       equations_.solve_tangent(linear_solver_, by_factor, true);
     if (!follow.failure.empty())
       return follow.failure;
-    last_correction_ = follow.field;
-    if (path.direction.empty())
-      {
-        const double norm = unknowns.norm(follow.field);
-        if (!(norm > 0.))
-          return "the soil is elastic, and no factor changes it";
-        path.direction = follow.field;
-        for (double &component : path.direction)
-          component /= norm;
-        path.length =
-          unknowns.product(path.direction, balance.field) + norm * path.change;
-      }
+    last_correction_     = follow.field;
     const double slope   = unknowns.product(path.direction, follow.field);
     const double missing = path.length - along;
     double       change =

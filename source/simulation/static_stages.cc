@@ -174,7 +174,8 @@ namespace talus
             problem_.boundaries,
             problem_.loading.loads(),
             problem_.contact,
-            problem_.bodies().mudline()};
+            problem_.bodies().mudline(),
+            [this](const double factor) { divide_strength(factor); }};
   }
 
 
@@ -495,140 +496,83 @@ namespace talus
 
 
 
-  /// Every trial starts from the state with the largest factor so far at which
-  /// the soil stood. Compared with full strength, less is out of balance, and
-  /// the search is cheaper. But the result must not depend on the path of the
-  /// search; therefore StrengthReduction checks the upper end a second time. A
-  /// signal ends the search, also before the first trial.
+  /// Without the stage 'equilibrium', a factor with which the soil stands is
+  /// searched first, with the full load.
   template <int dim>
   void
   StaticStages<dim>::search_factor()
   {
-    auto state        = save();
-    bool has_followed = false;
-    while (!equilibrium_.is_stopped() && !strength_reduction_.is_done())
+    const auto state = save();
+    while (strength_reduction_.lower() == 0. && !strength_reduction_.is_done())
       {
         const double factor = strength_reduction_.next();
         const bool   stands = is_stable_with(factor);
         if (equilibrium_.is_stopped())
           return;
         strength_reduction_.record(factor, stands);
-        log_.say(
-          LogLevel::result,
-          stands
-            ? text(std::setprecision(6), "  strength / ", factor, ": stands")
-            : text(std::setprecision(6),
-                   "  strength / ",
-                   factor,
-                   ": fails. ",
-                   equilibrium_.failure()));
-        if (stands)
-          state = save();
-        else // the last failed trial has the smallest factor
+        log_.say(LogLevel::result,
+                 text(std::setprecision(6),
+                      "  strength / ",
+                      factor,
+                      stands ? ": stands"
+                             : ": fails. " + equilibrium_.failure()));
+        if (!stands)
           {
-            write_mechanism("mechanism");
-            failure_depth_.record(
-              equilibrium_.newton().mechanism(state_.points));
-          }
-        restore(state);
-        if (strength_reduction_.lower() > 0. &&
-            strength_reduction_.upper() > 0. && !has_followed)
-          {
-            has_followed = follow_path();
-            if (has_followed)
-              state = save();
-            else
-              restore(state);
+            keep_mechanism();
+            restore(state);
           }
       }
+    if (strength_reduction_.lower() > 0.)
+      follow_path();
   }
 
 
 
-  /// The step grows as long as it is easy, and is cut where it fails. The
-  /// imbalance that standing soil is allowed would exceed the change by the
-  /// factor in the first step and is removed before. At the limit the factor
-  /// stops to grow; softening soil has its limit at the largest factor.
+  /// Points and contact change only in steps that are found. A signal ends the
+  /// search.
   template <int dim>
-  bool
+  void
   StaticStages<dim>::follow_path()
   {
-    constexpr double   accuracy = 1e-3;
-    StrengthPath       path{strength_reduction_.lower(), 0.};
-    const unsigned int stage = stages_.number();
-    path.change              = 0.1 * path.factor;
-    path.set_factor = [&](const double factor) { divide_strength(factor); };
-    StaticOptions options =
-      strength_reduction_.options(path.factor, equilibrium_.options());
-    options.allowed_imbalance = 1e-8;
-    divide_strength(path.factor);
-    solve(options, {stage, path.factor, true});
-    if (equilibrium_.is_stopped())
-      return false;
-    equilibrium_.begin(options);
-    const bool          is_first = is_first_rank(state_.communicator());
-    double              growth = 2., last = path.factor, largest = path.factor;
-    std::vector<double> factors{path.factor};
-    unsigned int        n_failures = 0;
-    while (n_failures < 12 && factors.size() < 60)
+    const bool    is_first = is_first_rank(state_.communicator());
+    StrengthPath &path     = strength_reduction_.path();
+    equilibrium_.begin(strength_reduction_.options(equilibrium_.options()));
+    while (!strength_reduction_.is_done())
       {
-        StaticProblem<dim> now          = problem();
+        SearchLabel        label{stages_.number(), path.factor, true};
         unsigned int       n_iterations = 0;
+        StaticProblem<dim> now          = problem();
         const bool         is_found     = equilibrium_.follow(
           now, path, [&](const EquilibriumProgress &progress) {
+            label.strength_factor = path.factor;
             ++n_iterations;
-            table_.add({stage, path.factor, true}, progress, is_first);
+            table_.add(label, progress, is_first);
             return !Utilities::MPI::logical_or(!remembered_signal().empty(),
                                                state_.communicator());
           });
-        table_.end_step({stage, path.factor, true});
+        table_.end_step(label);
         if (equilibrium_.is_stopped())
-          return false;
-        if (!is_found && path.direction.empty())
-          return false;
+          return;
         log_.say(LogLevel::result,
-                 text(std::setprecision(7),
-                      "  path: strength / ",
-                      path.factor,
-                      is_found ? ": stands; " : ": the step fails; ",
+                 text(std::setprecision(6),
+                      "  strength / ",
+                      label.strength_factor,
+                      is_found ? ": stands"
+                               : ": no balance was found with this step. " +
+                                   equilibrium_.failure(),
+                      " [",
                       n_iterations,
-                      " iterations, length ",
+                      " ",
+                      path.by_factor,
+                      " ",
+                      path.displacement,
+                      " ",
                       path.length,
-                      is_found ? "" : equilibrium_.failure()));
-        if (!is_found)
-          {
-            if (++n_failures % 4 != 0 && !path.direction.empty())
-              path.length *= 0.4;
-            else
-              {
-                path.direction.clear();
-                path.change *= 0.3;
-              }
-            growth = 1.25;
-            continue;
-          }
-        const double change = path.factor - last;
-        last                = path.factor;
-        largest             = std::max(largest, last);
-        factors.push_back(last);
-        const auto n = factors.size();
-        if (last < (1. - accuracy) * largest ||
-            (n > 3 && std::abs(last - factors[n - 4]) < accuracy * last))
-          {
-            strength_reduction_.record_limit(largest);
-            break;
-          }
-        n_failures = 0;
-        growth     = std::min(2., 1.1 * growth);
-        path.length *=
-          std::min(n_iterations <= 7    ? growth
-                   : n_iterations <= 12 ? 1.2
-                                        : 0.7,
-                   std::max(1., 0.06 * last / std::max(change, 1e-4)));
+                      "]"));
+        strength_reduction_.record_step(is_found, n_iterations);
       }
-    write_mechanism("mechanism");
-    failure_depth_.record(equilibrium_.newton().mechanism(state_.points));
-    return true;
+    if (strength_reduction_.upper() > 0.)
+      keep_mechanism();
   }
 
 
@@ -659,7 +603,7 @@ namespace talus
   StaticStages<dim>::is_stable_with(const double factor)
   {
     divide_strength(factor);
-    return solve(strength_reduction_.options(factor, equilibrium_.options()),
+    return solve(strength_reduction_.options(equilibrium_.options()),
                  {stages_.number(), factor, true});
   }
 
@@ -682,6 +626,17 @@ namespace talus
         "before the trigger; or, if the factor is more than 1, the search "
         "needs more 'Equilibrium/Load steps'. To let the soil fall without "
         "stress from t = 0 list 'dynamics' alone.")));
+  }
+
+
+
+  /// Write the motion of the soil where it fails, and keep it for the notes.
+  template <int dim>
+  void
+  StaticStages<dim>::keep_mechanism()
+  {
+    write_mechanism("mechanism");
+    failure_depth_.record(equilibrium_.newton().mechanism(state_.points));
   }
 
 

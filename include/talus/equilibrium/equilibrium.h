@@ -70,9 +70,9 @@ namespace talus
     bool
     advance(StaticProblem<dim> &problem, const Observer &observe);
 
-    /// Take a step along the @p path of decreasing strength. Returns whether
-    /// it was found; else failure() gives the reason, and nothing has changed.
-    /// Collective.
+    /// Take the next step along the @p path of decreasing strength; see
+    /// Newton::follow(). Returns whether it was found; otherwise failure() gives
+    /// the reason, and nothing has changed. Collective.
     bool
     follow(StaticProblem<dim> &problem,
            StrengthPath       &path,

@@ -26,13 +26,16 @@ namespace talus
   /// Place on the path of decreasing strength, and the next step along it.
   struct StrengthPath
   {
-    double factor;      ///< that divides strengths [-]
-    double change;      ///< of the factor in a step along the tangent [-]
-    double length = 0.; ///< of the next step along the direction, m
-    /// Displacements of norm 1 at the nodes; empty: those of the tangent.
+    double factor       = 1.; ///< that divides strengths [-]
+    double displacement = 0.; ///< length of the path so far, m
+    /// Whether the next step is given by the change of the factor; otherwise by
+    /// its length.
+    bool   by_factor = true;
+    double change    = 0.; ///< of the factor in the next step [-]
+    double length    = 0.; ///< of the next step along the direction, m
+    /// Displacements at the nodes in the last step, over their norm; empty if
+    /// nothing has moved.
     std::vector<double> direction;
-    /// Divides strengths by a factor [-].
-    std::function<void(double)> set_factor;
   };
 
 
@@ -71,10 +74,10 @@ namespace talus
     Outcome
     solve(StaticProblem<dim> &problem, double share, const Observer &observe);
 
-    /// Solve for displacements and strength factor of a step of given length
-    /// along the @p path, where the factor is an unknown @cite riks1979: at the
-    /// limit the strength need not be guessed, and no search fails. If the
-    /// solution fails, the path stays where it was. Collective.
+    /// Solve for the displacements of the next step along the @p path of
+    /// decreasing strength. In a step of given length the factor is an unknown
+    /// @cite riks1979: at the limit no factor needs to be guessed. If the
+    /// solution fails, path and contact stay as they were. Collective.
     Outcome
     follow(StaticProblem<dim> &problem,
            StrengthPath       &path,
@@ -138,6 +141,13 @@ namespace talus
     /// sentence.
     std::string
     newton_update(StaticProblem<dim> &problem, NewtonIteration &iteration);
+    void
+    set_factor(StaticProblem<dim> &problem, double factor);
+    /// Solve for displacements, factor and contact states together.
+    Outcome
+    solve_for_factor(StaticProblem<dim> &problem,
+                     StrengthPath       &path,
+                     const Observer     &observe);
     /// Solve for displacements and factor with fixed contact states.
     Outcome
     path_loop(StaticProblem<dim> &problem,
@@ -147,8 +157,6 @@ namespace talus
     path_update(StrengthPath              &path,
                 const std::vector<double> &by_factor,
                 double                     along);
-    void
-    set_factor(StaticProblem<dim> &problem, StrengthPath &path, double factor);
     double
     line_search(StaticProblem<dim>        &problem,
                 const std::vector<double> &direction);

@@ -27,6 +27,9 @@ namespace talus
     /// Height of the mudline above or below a place, m; not a number where the
     /// vertical meets no soil. Empty if the mudline is unknown.
     std::function<double(const dealii::Point<dim> &)> mudline = {};
+    /// Divides the strengths of soil and beds by a factor [-]; for strength
+    /// reduction.
+    std::function<void(double)> divide_strength = {};
   };
 
 

@@ -133,9 +133,7 @@ namespace talus
     reduce_strength(const Saved &before);
     void
     search_factor();
-    /// Follow the path of decreasing strength to the limit. Returns whether the
-    /// path could begin: some soil must yield. Collective.
-    bool
+    void
     follow_path();
     void
     start_reduction();
@@ -143,6 +141,8 @@ namespace talus
     undo_stage(const Saved &before);
     bool
     is_stable_with(double factor);
+    void
+    keep_mechanism();
     void
     write_mechanism(const std::string &name) const;
 
