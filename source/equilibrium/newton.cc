@@ -354,7 +354,7 @@ namespace talus
     const double missing = path.length - along;
     double       change =
       (missing - unknowns.product(path.direction, balance.field)) / slope;
-    if (!(slope * 0.1 * path.factor > 1e-3 * std::abs(missing)))
+    if (!(std::abs(slope) * 0.1 * path.factor > 1e-3 * std::abs(missing)))
       change = 0.01 * path.factor;
     change = std::clamp(change, -0.03 * path.factor, 0.03 * path.factor);
     for (std::size_t k = 0; k < u_.size(); ++k)

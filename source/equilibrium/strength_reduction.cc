@@ -154,6 +154,7 @@ namespace talus
     else
       {
         path_.by_factor = path_.direction.empty();
+        path_.change    = half_of_bracket();
         path_.length *= gain;
         growth_ = std::min(2., 1.1 * growth_);
         if (path_.factor < (1. - tolerance_) * lower_ ||
@@ -167,18 +168,27 @@ namespace talus
 
 
 
-  /// Steps become shorter. Where also short steps fail, the factor decides: if
-  /// a reduction by the tolerance fails, the search ends.
+  /// Half of the bracket, but not less than the tolerance, so that the last
+  /// failure is one from nearby.
+  double
+  StrengthReduction::half_of_bracket() const
+  {
+    return std::max(0.5 * (upper_ - path_.factor), tolerance_ * path_.factor);
+  }
+
+
+
+  /// A failed factor bounds the bracket. Steps of given length become shorter;
+  /// where also short ones fail, a factor is tried again.
   void
   StrengthReduction::plan_after_failure()
   {
-    const double smallest = tolerance_ * path_.factor;
     if (path_.by_factor)
       {
-        upper_          = path_.factor + path_.change;
-        is_done_        = (path_.change <= smallest);
+        upper_          = std::max(path_.factor + path_.change, lower_);
+        is_done_        = (path_.change <= 1.001 * tolerance_ * path_.factor);
         path_.by_factor = path_.direction.empty();
-        path_.change    = std::max(0.25 * path_.change, smallest);
+        n_failures_     = 0;
       }
     else if (++n_failures_ < 4)
       {
@@ -186,16 +196,14 @@ namespace talus
         growth_ = 1.25;
       }
     else
-      {
-        path_.by_factor = true;
-        path_.change    = smallest;
-      }
+      path_.by_factor = true;
+    path_.change = half_of_bracket();
   }
 
 
 
   /// Estimate the change of the factor that twice the displacement would bring,
-  /// from the slope of the last three steps [-].
+  /// from the slope of the last three steps [-]. Tiny steps tell nothing.
   double
   StrengthReduction::change_by_doubling() const
   {
@@ -204,7 +212,7 @@ namespace talus
       return INFINITY;
     const auto [s, factor]     = places_[n - 1];
     const auto [s_0, factor_0] = places_[n - 4];
-    return s > s_0 ? (factor - factor_0) * s / (s - s_0) : INFINITY;
+    return s - s_0 > 0.01 * s ? (factor - factor_0) * s / (s - s_0) : INFINITY;
   }
 
 
