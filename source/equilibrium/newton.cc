@@ -115,7 +115,8 @@ namespace talus
     unsigned int           n_singular   = 0;
     double                 tolerance    = options_.contact_tolerance;
     // The state of a node may change several times.
-    for (unsigned int trial = 0; trial < 50; ++trial)
+    for (unsigned int trial = 0; trial < options_.largest_contact_loops;
+         ++trial)
       {
         equations_.constrain(problem);
         const Outcome outcome = newton_loop(problem, tolerance, observe);
@@ -269,7 +270,8 @@ namespace talus
     u_ = path.direction;
     for (double &component : u_)
       component *= path.length;
-    for (unsigned int trial = 0; trial < 50; ++trial)
+    for (unsigned int trial = 0; trial < options_.largest_contact_loops;
+         ++trial)
       {
         equations_.constrain(problem);
         const Outcome outcome = path_loop(problem, path, observe);

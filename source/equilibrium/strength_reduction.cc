@@ -63,6 +63,14 @@ namespace talus
     // step. The limits of their forces hold anyway, and the factors of
     // the cases in doc/performance.md are those with 1e-5.
     constexpr double trial_facet_tolerance = 1e-3;
+
+    // In a step of the factor more loops would carry softening beds beyond the
+    // limit at once: places that slip too far in the first loops stick again
+    // and bear load there.
+    constexpr unsigned int largest_contact_loops = 5;
+
+    // Steps that are found need fewer iterations.
+    constexpr unsigned int largest_iterations = 15;
   } // namespace
 
 
@@ -110,11 +118,13 @@ namespace talus
     upper_       = 0.;
     path_        = {};
     path_.factor = factor;
-    path_.change = std::clamp(first_ - factor, 0.1 * factor, 0.25 * factor);
-    growth_      = 2.;
-    n_failures_  = 0;
-    places_      = {{0., factor}};
-    is_done_     = (factor >= largest_);
+    path_.change =
+      std::min(std::clamp(first_ - factor, 0.1 * factor, 0.25 * factor),
+               largest_ - factor);
+    growth_     = 2.;
+    n_failures_ = 0;
+    places_     = {{0., factor}};
+    is_done_    = (factor >= largest_);
   }
 
 
@@ -132,8 +142,7 @@ namespace talus
 
 
 
-  /// The first failure of a factor says that the limit is near: from there the
-  /// steps have a given length. They end where the factor stops to grow;
+  /// The kind of the steps stays. The path ends where the factor stops to grow;
   /// softening soil has its limit at the largest factor.
   void
   StrengthReduction::plan_after_success(const unsigned int n_iterations)
@@ -141,6 +150,7 @@ namespace talus
     const double gain = n_iterations <= few    ? growth_
                         : n_iterations <= some ? 1.
                                                : 0.7;
+    growth_           = std::min(2., 1.1 * growth_);
     n_failures_       = 0;
     lower_            = std::max(lower_, path_.factor);
     places_.emplace_back(path_.displacement, path_.factor);
@@ -149,14 +159,17 @@ namespace talus
         upper_   = 0.;
         is_done_ = true;
       }
-    else if (upper_ == 0.)
-      path_.change = std::min(gain * path_.change, 0.25 * path_.factor);
+    else if (path_.by_factor)
+      {
+        path_.change = std::min(gain * path_.change, 0.25 * path_.factor);
+        // Elastic soil fails with all factors above upper_.
+        if (upper_ > 0. && path_.direction.empty())
+          path_.change =
+            std::max(0.5 * (upper_ - path_.factor), tolerance_ * path_.factor);
+      }
     else
       {
-        path_.by_factor = path_.direction.empty();
-        path_.change    = half_of_bracket();
         path_.length *= gain;
-        growth_ = std::min(2., 1.1 * growth_);
         if (path_.factor < (1. - tolerance_) * lower_ ||
             std::abs(change_by_doubling()) < tolerance_ * path_.factor)
           {
@@ -168,36 +181,27 @@ namespace talus
 
 
 
-  /// Half of the bracket, but not less than the tolerance, so that the last
-  /// failure is one from nearby.
-  double
-  StrengthReduction::half_of_bracket() const
-  {
-    return std::max(0.5 * (upper_ - path_.factor), tolerance_ * path_.factor);
-  }
-
-
-
-  /// A failed factor bounds the bracket. Steps of given length become shorter;
-  /// where also short ones fail, a factor is tried again.
+  /// A factor that fails may be near the limit, where only steps of given
+  /// length are found. Where they are not found either, the limit is far: steps
+  /// of the factor follow, half as large as before. The failure of a factor
+  /// within the tolerance is decisive.
   void
   StrengthReduction::plan_after_failure()
   {
+    const double smallest = tolerance_ * path_.factor;
+    growth_               = 1.25;
     if (path_.by_factor)
       {
         upper_          = std::max(path_.factor + path_.change, lower_);
-        is_done_        = (path_.change <= 1.001 * tolerance_ * path_.factor);
+        is_done_        = (path_.change <= 1.001 * smallest);
+        path_.change    = std::max(0.5 * path_.change, smallest);
         path_.by_factor = path_.direction.empty();
-        n_failures_     = 0;
-      }
-    else if (++n_failures_ < 4)
-      {
-        path_.length *= 0.4;
-        growth_ = 1.25;
       }
     else
-      path_.by_factor = true;
-    path_.change = half_of_bracket();
+      {
+        path_.length *= 0.4;
+        path_.by_factor = (++n_failures_ % 3 == 0);
+      }
   }
 
 
@@ -227,8 +231,12 @@ namespace talus
     options.contact_tolerance = 0.1 * options.allowed_imbalance;
     options.facet_tolerance   = trial_facet_tolerance;
     // No state with less strength to start from: the full load must be applied.
-    if (lower_ > 0.)
-      options.n_load_steps = 1;
+    if (lower_ == 0.)
+      return options;
+    options.n_load_steps          = 1;
+    options.largest_contact_loops = largest_contact_loops;
+    options.largest_iterations =
+      std::min(options.largest_iterations, largest_iterations);
     return options;
   }
 

@@ -53,9 +53,10 @@ namespace talus
     double contact_tolerance = 0.;
     /// Distance by which facets of obstacles may give way in a load step, over
     /// the largest displacement [-].
-    double       facet_tolerance    = 1e-5;
-    unsigned int largest_iterations = 30;
-    double       ghost_penalty      = 0.01; ///< gamma [-]
+    double       facet_tolerance       = 1e-5;
+    unsigned int largest_contact_loops = 50; ///< in a load step [-]
+    unsigned int largest_iterations    = 30;
+    double       ghost_penalty         = 0.01; ///< gamma [-]
   };
 
 

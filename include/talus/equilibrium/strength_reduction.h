@@ -124,8 +124,6 @@ namespace talus
     void
     plan_after_failure();
     double
-    half_of_bracket() const;
-    double
     change_by_doubling() const;
 
     // Parameters
