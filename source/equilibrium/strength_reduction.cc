@@ -19,10 +19,9 @@ namespace talus
                   Patterns::Double(1e-6));
     add_parameter("Tolerance",
                   tolerance_,
-                  "Change of the factor, over the factor, by twice the "
-                  "displacement, at which the search ends [-]: the soil moves "
-                  "on with the strength left. If the soil fails without "
-                  "moving before: width of the bracket of the factor.",
+                  "Change of the factor, over the factor, while the "
+                  "displacement doubles, at which the search ends [-]. If the "
+                  "soil fails at once: width of the bracket of the factor.",
                   this->prm,
                   Patterns::Double(1e-6, 1.));
     add_parameter("Largest factor",
@@ -129,24 +128,14 @@ namespace talus
 
 
 
+  /// The kind of the steps stays while they are found. The path ends where the
+  /// factor stops to grow; softening soil has its limit at the largest factor.
   void
   StrengthReduction::record_step(const bool         is_found,
                                  const unsigned int n_iterations)
   {
-    if (is_found)
-      plan_after_success(n_iterations);
-    else
-      plan_after_failure();
-    path_.change = std::min(path_.change, largest_ - path_.factor);
-  }
-
-
-
-  /// The kind of the steps stays. The path ends where the factor stops to grow;
-  /// softening soil has its limit at the largest factor.
-  void
-  StrengthReduction::plan_after_success(const unsigned int n_iterations)
-  {
+    if (!is_found)
+      return shorten_step();
     const double gain = n_iterations <= few    ? growth_
                         : n_iterations <= some ? 1.
                                                : 0.7;
@@ -159,23 +148,19 @@ namespace talus
         upper_   = 0.;
         is_done_ = true;
       }
-    else if (path_.by_factor)
+    (path_.by_factor ? path_.change : path_.length) *= gain;
+    path_.change =
+      std::min({path_.change, 0.25 * path_.factor, largest_ - path_.factor});
+    // Elastic soil fails with all factors above upper_.
+    if (upper_ > 0. && path_.direction.empty())
+      path_.change =
+        std::max(0.5 * (upper_ - path_.factor), tolerance_ * path_.factor);
+    if (!path_.by_factor &&
+        (path_.factor < (1. - tolerance_) * lower_ ||
+         std::abs(change_by_doubling()) < tolerance_ * path_.factor))
       {
-        path_.change = std::min(gain * path_.change, 0.25 * path_.factor);
-        // Elastic soil fails with all factors above upper_.
-        if (upper_ > 0. && path_.direction.empty())
-          path_.change =
-            std::max(0.5 * (upper_ - path_.factor), tolerance_ * path_.factor);
-      }
-    else
-      {
-        path_.length *= gain;
-        if (path_.factor < (1. - tolerance_) * lower_ ||
-            std::abs(change_by_doubling()) < tolerance_ * path_.factor)
-          {
-            upper_   = lower_;
-            is_done_ = true;
-          }
+        upper_   = lower_;
+        is_done_ = true;
       }
   }
 
@@ -186,7 +171,7 @@ namespace talus
   /// of the factor follow, half as large as before. The failure of a factor
   /// within the tolerance is decisive.
   void
-  StrengthReduction::plan_after_failure()
+  StrengthReduction::shorten_step()
   {
     const double smallest = tolerance_ * path_.factor;
     growth_               = 1.25;
@@ -206,17 +191,17 @@ namespace talus
 
 
 
-  /// Estimate the change of the factor that twice the displacement would bring,
-  /// from the slope of the last three steps [-]. Tiny steps tell nothing.
+  /// Change of the factor while the displacement doubled, by the last three
+  /// steps or more [-]; infinite if it did not double.
   double
   StrengthReduction::change_by_doubling() const
   {
-    const auto n = places_.size();
-    if (n < 4)
-      return INFINITY;
-    const auto [s, factor]     = places_[n - 1];
-    const auto [s_0, factor_0] = places_[n - 4];
-    return s - s_0 > 0.01 * s ? (factor - factor_0) * s / (s - s_0) : INFINITY;
+    const auto [s, factor] = places_.back();
+    for (std::size_t n = places_.size(); n >= 4; --n)
+      if (const auto [before, other] = places_[n - 4];
+          before > 0. && before <= 0.5 * s)
+        return (factor - other) / std::log2(s / before);
+    return INFINITY;
   }
 
 
@@ -274,10 +259,11 @@ namespace talus
                              upper_,
                              ".")
       : path_.factor < (1. - tolerance_) * lower_
-        ? ": the soil moves on with more strength than that."
+        ? ", the largest of the path: the soil softens, and moves on with "
+          "smaller factors."
         : text(std::setprecision(2),
-               ": the soil moves on with this strength, and twice the "
-               "displacement changes the factor by ",
+               ": the soil moves on with its strength divided by this; while "
+               "the displacement doubled, the factor changed by ",
                std::abs(change_by_doubling()),
                ".");
     return text(std::setprecision(6),

@@ -215,10 +215,8 @@ namespace talus
 
 
   /// Apply the load from zero to full. Nothing moves, which keeps the shape for
-  /// which a factor of safety is sought. In a trial the soil was in balance and
-  /// may have become weaker: first a load step without displacement returns the
-  /// stress to the new yield surface, and the resulting imbalance is the load.
-  /// A signal may be received by some ranks only.
+  /// which a factor of safety is sought. A signal may be received by some ranks
+  /// only.
   template <int dim>
   bool
   StaticStages<dim>::solve(const StaticOptions &options,
@@ -232,8 +230,6 @@ namespace talus
     };
     StaticProblem<dim> now = problem();
     equilibrium_.begin(options);
-    if (label.is_trial)
-      equilibrium_.return_stress(now);
     bool is_sound = true;
     while (is_sound && !equilibrium_.is_balanced())
       {
@@ -438,29 +434,41 @@ namespace talus
                                                  state_.communicator()));
     // Uses the search of the reduction, from above: factors less than one.
     strength_reduction_.record(1., false);
-    while (strength_reduction_.lower() == 0.)
+    if (!search_standing_factor(before, equilibrium_.options()) &&
+        !equilibrium_.is_stopped())
+      throw_no_equilibrium(sentence +
+                           " No balance was found with more strength either. " +
+                           strength_reduction_.result());
+    standing_factor_ = strength_reduction_.lower();
+  }
+
+
+
+  /// Apply the full load to soil of more and more strength, from the state
+  /// @p before without loads, until it stands. Returns whether it does.
+  /// Collective.
+  template <int dim>
+  bool
+  StaticStages<dim>::search_standing_factor(const Saved         &before,
+                                            const StaticOptions &options)
+  {
+    while (strength_reduction_.lower() == 0. && !strength_reduction_.is_done())
       {
-        if (strength_reduction_.is_done())
-          throw_no_equilibrium(sentence +
-                               " No balance was found with more strength "
-                               "either. " +
-                               strength_reduction_.result());
         const double factor = strength_reduction_.next();
         restore(before);
         divide_strength(factor);
-        const bool stands =
-          solve(equilibrium_.options(), {stages_.number(), factor});
+        const bool stands = solve(options, {stages_.number(), factor});
         if (equilibrium_.is_stopped())
-          return;
+          return false;
         strength_reduction_.record(factor, stands);
         log_.say(LogLevel::result,
                  text(std::setprecision(6),
-                      "  strength x ",
-                      1. / factor,
+                      "  strength / ",
+                      factor,
                       stands ? ": stands"
                              : ": fails. " + equilibrium_.failure()));
       }
-    standing_factor_ = strength_reduction_.lower();
+    return strength_reduction_.lower() > 0.;
   }
 
 
@@ -477,7 +485,7 @@ namespace talus
                                                  state_.communicator()));
     if (stages_.contain(Stage::equilibrium))
       start_reduction();
-    search_factor();
+    search_factor(before);
     if (equilibrium_.is_stopped())
       return;
     restore(before);
@@ -497,33 +505,19 @@ namespace talus
 
 
   /// Without the stage 'equilibrium', a factor with which the soil stands is
-  /// searched first, with the full load.
+  /// searched first.
   template <int dim>
   void
-  StaticStages<dim>::search_factor()
+  StaticStages<dim>::search_factor(const Saved &before)
   {
-    const auto state = save();
-    while (strength_reduction_.lower() == 0. && !strength_reduction_.is_done())
-      {
-        const double factor = strength_reduction_.next();
-        const bool   stands = is_stable_with(factor);
-        if (equilibrium_.is_stopped())
-          return;
-        strength_reduction_.record(factor, stands);
-        log_.say(LogLevel::result,
-                 text(std::setprecision(6),
-                      "  strength / ",
-                      factor,
-                      stands ? ": stands"
-                             : ": fails. " + equilibrium_.failure()));
-        if (!stands)
-          {
-            keep_mechanism();
-            restore(state);
-          }
-      }
-    if (strength_reduction_.lower() > 0.)
+    if (search_standing_factor(
+          before, strength_reduction_.options(equilibrium_.options())))
       follow_path();
+    if (!equilibrium_.is_stopped() && strength_reduction_.upper() > 0.)
+      {
+        write_mechanism("mechanism");
+        failure_depth_.record(equilibrium_.newton().mechanism(state_.points));
+      }
   }
 
 
@@ -557,22 +551,11 @@ namespace talus
                  text(std::setprecision(6),
                       "  strength / ",
                       label.strength_factor,
-                      is_found ? ": stands"
-                               : ": no balance was found with this step. " +
-                                   equilibrium_.failure(),
-                      " [",
-                      n_iterations,
-                      " ",
-                      path.by_factor,
-                      " ",
-                      path.displacement,
-                      " ",
-                      path.length,
-                      "]"));
+                      is_found
+                        ? ": stands"
+                        : ": the step fails. " + equilibrium_.failure()));
         strength_reduction_.record_step(is_found, n_iterations);
       }
-    if (strength_reduction_.upper() > 0.)
-      keep_mechanism();
   }
 
 
@@ -584,8 +567,11 @@ namespace talus
   StaticStages<dim>::start_reduction()
   {
     strength_reduction_.record(standing_factor_, true);
+    divide_strength(standing_factor_);
     AssertThrow(
-      is_stable_with(standing_factor_) || equilibrium_.is_stopped(),
+      solve(strength_reduction_.options(equilibrium_.options()),
+            {stages_.number(), standing_factor_, true}) ||
+        equilibrium_.is_stopped(),
       ExcUser(text(
         "The stage 'strength reduction' starts from soil that is out of "
         "balance, so that no factor of safety exists. ",
@@ -593,18 +579,6 @@ namespace talus
         ". Set 'Equilibrium/Allowed imbalance' to less; or, if the imbalance "
         "is small against the required 'Tolerance' of the factor, set "
         "'Strength reduction/Allowed imbalance' to more.")));
-  }
-
-
-
-  /// Search for balance with all strengths divided by @p factor [-].
-  template <int dim>
-  bool
-  StaticStages<dim>::is_stable_with(const double factor)
-  {
-    divide_strength(factor);
-    return solve(strength_reduction_.options(equilibrium_.options()),
-                 {stages_.number(), factor, true});
   }
 
 
@@ -626,17 +600,6 @@ namespace talus
         "before the trigger; or, if the factor is more than 1, the search "
         "needs more 'Equilibrium/Load steps'. To let the soil fall without "
         "stress from t = 0 list 'dynamics' alone.")));
-  }
-
-
-
-  /// Write the motion of the soil where it fails, and keep it for the notes.
-  template <int dim>
-  void
-  StaticStages<dim>::keep_mechanism()
-  {
-    write_mechanism("mechanism");
-    failure_depth_.record(equilibrium_.newton().mechanism(state_.points));
   }
 
 

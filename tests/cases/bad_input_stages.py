@@ -139,7 +139,7 @@ class BadInputStages(Case):
                                 self.WEAK_CLAY, self.WEAK_SEABED)
         self.assertEqual(result.returncode, 0, result)
         for words in ("'equilibrium' found no balance beyond 0.",
-                      "looked for with more strength", "strength x ",
+                      "looked for with more strength", "strength / 0.",
                       "The factor of safety is 0.37", "It is less than 1: the "
                       "soil cannot stand with its strength."):
             self.assertIn(words, result.stdout)

@@ -43,8 +43,6 @@ namespace talus
     double       allowed_imbalance = 1e-6; ///< limit for soil in balance [-]
     /// Whether to subtract the error of the weight (WellBalancedLoad).
     bool is_well_balanced = true;
-    /// Number of load steps that may fail and be cut [-].
-    unsigned int max_failures = -1;
 
     // Newton's method
     double tolerance = 1e-8; ///< relative residual [-]

@@ -120,9 +120,7 @@ namespace talus
       return std::max(smallest_, 1. / largest_strength_);
     }
     void
-    plan_after_success(unsigned int n_iterations);
-    void
-    plan_after_failure();
+    shorten_step();
     double
     change_by_doubling() const;
 

@@ -138,8 +138,8 @@ namespace
 
   TEST(StrengthReductionTest, FindsTheLimitOfThePath)
   {
-    // A limit approached fast or, as s/(1 + s), slowly; the estimate of what
-    // is missing is right for the latter.
+    // A limit approached fast or slowly. Where the distance from the limit
+    // falls as 1/s, it is at most 1/ln 2 times the change by a doubling.
     for (const double tolerance : {0.01, 1e-3, 1e-4})
       for (const double longest : {1e9, 0.5, 0.1})
         for (const double limit : {0.37, 1.44})
@@ -154,10 +154,11 @@ namespace
                 fast ? longest : std::max(longest, 0.5));
               ASSERT_TRUE(reduction.is_done());
               EXPECT_LE(reduction.factor(), limit);
-              EXPECT_NEAR(reduction.factor(), limit, 1.1 * tolerance * limit)
+              EXPECT_NEAR(reduction.factor(), limit, 1.45 * tolerance * limit)
                 << tolerance << ", " << longest << ", " << fast;
-              EXPECT_TRUE(
-                contains(reduction.result(), "moves on with this strength"));
+              if (longest > 1.)
+                EXPECT_TRUE(
+                  contains(reduction.result(), "moves on with its strength"));
               EXPECT_EQ(reduction.is_less_than_one(), limit < 1.);
             }
   }
