@@ -71,8 +71,8 @@ namespace talus
     advance(StaticProblem<dim> &problem, const Observer &observe);
 
     /// Take the next step along the @p path of decreasing strength; see
-    /// Newton::follow(). Returns whether it was found; otherwise failure() gives
-    /// the reason, and nothing has changed. Collective.
+    /// Newton::follow(). Returns whether the step was found; otherwise
+    /// failure() gives the reason, and nothing has changed. Collective.
     bool
     follow(StaticProblem<dim> &problem,
            StrengthPath       &path,

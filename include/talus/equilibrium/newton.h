@@ -26,13 +26,13 @@ namespace talus
   /// Place on the path of decreasing strength, and the next step along it.
   struct StrengthPath
   {
-    double factor       = 1.; ///< that divides strengths [-]
+    double factor       = 1.; ///< divisor of all strengths [-]
     double displacement = 0.; ///< length of the path so far, m
     /// Whether the next step is given by the change of the factor; otherwise by
     /// its length.
     bool   by_factor = true;
-    double change    = 0.; ///< of the factor in the next step [-]
-    double length    = 0.; ///< of the next step along the direction, m
+    double change    = 0.; ///< growth of the factor in the next step [-]
+    double length    = 0.; ///< length of the next step along the direction, m
     /// Displacements at the nodes in the last step, over their norm; empty if
     /// nothing has moved.
     std::vector<double> direction;

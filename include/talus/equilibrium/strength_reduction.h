@@ -135,7 +135,7 @@ namespace talus
     double       lower_ = 0, upper_ = 0;
     double       largest_strength_ = 0;
     StrengthPath path_;
-    double       growth_     = 0; ///< of the length from step to step [-]
+    double growth_ = 0; ///< largest ratio of a step to the previous one [-]
     unsigned int n_failures_ = 0; ///< one after the other
     bool         is_done_    = false;
     /// Displacement, m, and factor [-] after the steps so far.
