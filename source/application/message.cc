@@ -123,6 +123,8 @@ namespace talus
         {"Format",
          " Points, grid and obstacles are VTU files without a choice: remove "
          "Output/Format."},
+        {"Smallest load step",
+         " The factor of safety is found without load steps: remove the line."},
         {"Strain",
          " Static stages always use small strain: remove the line. A body at "
          "large strain comes to rest in the stage 'dynamics', with "

@@ -109,23 +109,10 @@ namespace talus
     load_      = 0;
     step_      = 1. / options.n_load_steps;
     imbalance_ = 0;
-    n_steps_ = n_settling_ = n_failures_ = 0;
+    n_steps_ = n_settling_ = 0;
     is_found_ = is_stopped_ = false;
     imbalances_.clear();
     failure_.clear();
-  }
-
-
-
-  /// After Newton::begin() the displacements are zero. The commit gives the
-  /// laws a load step without strain: stresses outside the yield surface return
-  /// to it, all further stresses stay.
-  template <int dim>
-  void
-  Equilibrium<dim>::return_stress(StaticProblem<dim> &problem)
-  {
-    newton_.begin(problem, options_);
-    newton_.commit(problem); // no displacements
   }
 
 
@@ -195,6 +182,32 @@ namespace talus
       (has_obstacles ? std::max(1e-9, std::pow(0.1, n_settling_))
                      : std::max(1e-3, std::pow(0.5, n_settling_)));
     return options;
+  }
+
+
+
+  /// A stiff stabilization would let the factor creep up with the length.
+  template <int dim>
+  bool
+  Equilibrium<dim>::follow(StaticProblem<dim> &problem,
+                           StrengthPath       &path,
+                           const Observer     &observe)
+  {
+    StaticOptions options = options_;
+    options.ghost_penalty *= 1e-4;
+    newton_.begin(problem, options);
+    const auto outcome =
+      newton_.follow(problem, path, [&](const NewtonIteration &iteration) {
+        return observe({n_steps_ + 1, 1., iteration});
+      });
+    failure_    = outcome.failure;
+    is_stopped_ = outcome.is_stopped;
+    if (outcome.converged)
+      {
+        newton_.commit(problem);
+        ++n_steps_;
+      }
+    return outcome.converged;
   }
 
 
@@ -273,8 +286,7 @@ namespace talus
           {
             failure_    = outcome.failure;
             is_stopped_ = outcome.is_stopped;
-            if (is_stopped_ || flows_on() ||
-                ++n_failures_ > options_.max_failures)
+            if (is_stopped_ || flows_on())
               return false;
             continue;
           }

@@ -201,6 +201,19 @@ namespace talus
 
 
 
+  bool
+  LuFactorization::solve_again(TrilinosWrappers::MPI::Vector       &x,
+                               const TrilinosWrappers::MPI::Vector &rhs)
+  {
+    amesos_->problem.SetLHS(&x.trilinos_vector());
+    // Epetra's class of a linear problem takes no constant vectors.
+    amesos_->problem.SetRHS(
+      const_cast<Epetra_MultiVector *>(&rhs.trilinos_vector()));
+    return amesos_->solver->Solve() == 0;
+  }
+
+
+
   /// KLU's own test, which compares the smallest pivot with the largest, is
   /// switched off: nodes with very little soil have small pivots in well-posed
   /// problems, too.
@@ -339,7 +352,9 @@ namespace talus
     x                        = 0.;
     if (type == "direct")
       return {0,
-              system.factorization.solve(matrix, x, rhs, system.symmetric)
+              (system.is_factorized
+                 ? system.factorization.solve_again(x, rhs)
+                 : system.factorization.solve(matrix, x, rhs, system.symmetric))
                 ? ""
                 : "the matrix is singular"};
 

@@ -115,7 +115,8 @@ namespace talus
     unsigned int           n_singular   = 0;
     double                 tolerance    = options_.contact_tolerance;
     // The state of a node may change several times.
-    for (unsigned int trial = 0; trial < 50; ++trial)
+    for (unsigned int trial = 0; trial < options_.largest_contact_loops;
+         ++trial)
       {
         equations_.constrain(problem);
         const Outcome outcome = newton_loop(problem, tolerance, observe);
@@ -204,6 +205,164 @@ namespace talus
         if (!error.empty())
           return failure(text("Newton's method diverges: ", error));
       }
+  }
+
+
+
+  /// Divide the strengths of soil and beds by @p factor.
+  template <int dim>
+  void
+  Newton<dim>::set_factor(StaticProblem<dim> &problem, const double factor)
+  {
+    problem.divide_strength(factor);
+    contact().renew_limits(problem);
+  }
+
+
+
+  /// The next direction is that of the step just found.
+  template <int dim>
+  typename Newton<dim>::Outcome
+  Newton<dim>::follow(StaticProblem<dim> &problem,
+                      StrengthPath       &path,
+                      const Observer     &observe)
+  {
+    const StrengthPath       before         = path;
+    const StaticContact<dim> contact_before = contact();
+    Outcome                  outcome;
+    if (path.by_factor)
+      {
+        path.factor += path.change;
+        set_factor(problem, path.factor);
+        outcome = solve(problem, 1., observe);
+      }
+    else
+      outcome = solve_for_factor(problem, path, observe);
+    if (!outcome.converged)
+      {
+        path                 = before;
+        equations_.contact() = contact_before;
+        set_factor(problem, path.factor);
+        return outcome;
+      }
+    if (const double norm = equations_.unknowns().norm(u_); norm > 0.)
+      {
+        path.displacement += norm;
+        path.length    = norm;
+        path.direction = u_;
+        for (double &component : path.direction)
+          component /= norm;
+      }
+    return outcome;
+  }
+
+
+
+  /// As in solve_with_contact(), contact states are fixed within a loop and
+  /// updated between the loops.
+  template <int dim>
+  typename Newton<dim>::Outcome
+  Newton<dim>::solve_for_factor(StaticProblem<dim> &problem,
+                                StrengthPath       &path,
+                                const Observer     &observe)
+  {
+    equations_.set_load_fraction(1.);
+    u_ = path.direction;
+    for (double &component : u_)
+      component *= path.length;
+    for (unsigned int trial = 0; trial < options_.largest_contact_loops;
+         ++trial)
+      {
+        equations_.constrain(problem);
+        const Outcome outcome = path_loop(problem, path, observe);
+        if (!outcome.converged)
+          return outcome;
+        mechanism_ = u_;
+        if (equations_.update_contact(
+              problem, residual_, u_, options_.facet_tolerance) == 0)
+          return outcome;
+      }
+    return failure(
+      "The contact with seabed and obstacles does not come to rest");
+  }
+
+
+
+  /// The residual is linear in the factor but for yield, so a difference over a
+  /// millionth gives its derivative. It is computed first: the tangent is that
+  /// of the last residual.
+  template <int dim>
+  typename Newton<dim>::Outcome
+  Newton<dim>::path_loop(StaticProblem<dim> &problem,
+                         StrengthPath       &path,
+                         const Observer     &observe)
+  {
+    const Unknowns<dim> &unknowns = equations_.unknowns();
+    constexpr double     step     = 1e-6;
+    std::vector<double>  residuals, by_factor;
+    for (unsigned int i = 0;; ++i)
+      {
+        const double factor = path.factor;
+        set_factor(problem, (1. + step) * factor);
+        equations_.compute_residual(problem, u_, by_factor);
+        set_factor(problem, factor);
+        equations_.compute_residual(problem, u_, residual_);
+        for (std::size_t k = 0; k < by_factor.size(); ++k)
+          by_factor[k] = (by_factor[k] - residual_[k]) / (step * factor);
+        const double residual =
+          unknowns.norm(residual_) / equations_.reference_force();
+        if (!observe({i, residual, 0, 0., 1.}))
+          return {false, "The search was stopped", true};
+        const double along = unknowns.product(path.direction, u_);
+        if (residual <= options_.tolerance &&
+            std::abs(along - path.length) <= 1e-6 * path.length)
+          return {true, "", false, residual};
+        residuals.push_back(residual);
+        std::string error = divergence(residuals);
+        if (i == options_.largest_iterations || !std::isfinite(residual))
+          error = "no convergence";
+        if (error.empty())
+          error = path_update(path, by_factor, along);
+        if (!error.empty())
+          return failure(text("Newton's method diverges: ", error));
+      }
+  }
+
+
+
+  /// Take a step by two right-hand sides: the displacements balance the
+  /// residual and follow the factor, and the change of the factor gives the
+  /// step its length, of which @p along is there. At most 3 % at once: the
+  /// tangent of a state with few yielded points would overshoot. Where soil is
+  /// elastic the factor has no influence, and grows until points yield.
+  template <int dim>
+  std::string
+  Newton<dim>::path_update(StrengthPath              &path,
+                           const std::vector<double> &by_factor,
+                           const double               along)
+  {
+    const Unknowns<dim> &unknowns = equations_.unknowns();
+    const auto balance = equations_.solve_tangent(linear_solver_, residual_);
+    if (!balance.failure.empty())
+      return balance.failure;
+    if (!(balance.largest < 10. * extent_))
+      return "the matrix is nearly singular: soil can move freely";
+    const auto follow =
+      equations_.solve_tangent(linear_solver_, by_factor, true);
+    if (!follow.failure.empty())
+      return follow.failure;
+    last_correction_     = follow.field;
+    const double slope   = unknowns.product(path.direction, follow.field);
+    const double missing = path.length - along;
+    double       change =
+      (missing - unknowns.product(path.direction, balance.field)) / slope;
+    if (!(std::abs(slope) * 0.1 * path.factor > 1e-3 * std::abs(missing)))
+      change = 0.01 * path.factor;
+    change = std::clamp(change, -0.03 * path.factor, 0.03 * path.factor);
+    for (std::size_t k = 0; k < u_.size(); ++k)
+      u_[k] += balance.field[k] + change * follow.field[k];
+    path.factor += change;
+    return "";
   }
 
 

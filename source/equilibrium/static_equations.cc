@@ -299,9 +299,11 @@ namespace talus
   template <int dim>
   typename StaticEquations<dim>::Correction
   StaticEquations<dim>::solve_tangent(const LinearSolver        &linear_solver,
-                                      const std::vector<double> &residual)
+                                      const std::vector<double> &residual,
+                                      const bool                 keeps_matrix)
   {
-    assemble_matrix();
+    if (!keeps_matrix)
+      assemble_matrix();
     TrilinosWrappers::MPI::Vector rhs(unknowns_.owned(),
                                       unknowns_.communicator());
     TrilinosWrappers::MPI::Vector solution(rhs);
@@ -311,11 +313,15 @@ namespace talus
       });
     rhs.compress(VectorOperation::insert);
     const RigidModes     modes   = free_rigid_modes();
-    const LinearSolution outcome = linear_solver.solve(
-      {matrix_.matrix(), factorization_, modes, dim, is_symmetric()},
-      solution,
-      rhs);
-    Correction result{unknowns_.field(),
+    const LinearSolution outcome = linear_solver.solve({matrix_.matrix(),
+                                                        factorization_,
+                                                        modes,
+                                                        dim,
+                                                        is_symmetric(),
+                                                        keeps_matrix},
+                                                       solution,
+                                                       rhs);
+    Correction           result{unknowns_.field(),
                       0.,
                       outcome.n_iterations,
                       outcome.failure};

@@ -3,6 +3,7 @@
 #include <talus/equilibrium/strength_reduction.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace talus
 {
@@ -18,8 +19,9 @@ namespace talus
                   Patterns::Double(1e-6));
     add_parameter("Tolerance",
                   tolerance_,
-                  "Width of the bracket of the factor of safety, over the "
-                  "factor, at which the search ends [-].",
+                  "Change of the factor, over the factor, while the "
+                  "displacement doubles, at which the search ends [-]. If the "
+                  "soil fails at once: width of the bracket of the factor.",
                   this->prm,
                   Patterns::Double(1e-6, 1.));
     add_parameter("Largest factor",
@@ -34,21 +36,12 @@ namespace talus
                   "with any strength.",
                   this->prm,
                   Patterns::Double(1e-6));
-    add_parameter("Smallest load step",
-                  smallest_step_,
-                  "Smallest fraction of the imbalance of a factor in a halved "
-                  "step [-]; if it fails, a smaller reduction is tried. "
-                  "Failure of a factor within 'Tolerance' of a factor with "
-                  "which the soil stands is decisive: here steps go down to "
-                  "'Equilibrium/Smallest load step'.",
-                  this->prm,
-                  smallest_load_steps());
     add_parameter("Allowed imbalance",
                   allowed_imbalance_,
-                  "Largest unbalanced force of soil that stands, over the "
-                  "force of the loads or of the stress, as in section "
-                  "Equilibrium [-]; 0 for 0.02 times 'Tolerance'. Must be "
-                  "small against 'Tolerance'.",
+                  "Largest unbalanced force of soil that stands, where the "
+                  "search begins, over the force of the loads or of the "
+                  "stress, as in section Equilibrium [-]; 0 for a tenth of "
+                  "'Tolerance'. Must be small against 'Tolerance'.",
                   this->prm,
                   Patterns::Double(0.));
     add_parameter("Seabed",
@@ -61,18 +54,22 @@ namespace talus
 
   namespace
   {
-    constexpr double fastest_growth = 0.5;
-
-    // A failure counts if the trial started at most `nearby` times the
-    // tolerance below the factor. Halving a bracket of twice the tolerance
-    // leaves lengths slightly above the tolerance, since the tolerance is
-    // relative to the lower end.
-    constexpr double nearby = 1.25;
+    // Iterations of easy steps, after which the next is longer, and of those
+    // after which the next is as long.
+    constexpr unsigned int few = 7, some = 12;
 
     // Facets of obstacles may give way by this share of the displacements of a
-    // trial. The limits of their forces hold anyway, and the factors of
+    // step. The limits of their forces hold anyway, and the factors of
     // the cases in doc/performance.md are those with 1e-5.
     constexpr double trial_facet_tolerance = 1e-3;
+
+    // In a step of the factor more loops would carry softening beds beyond the
+    // limit at once: places that slip too far in the first loops stick again
+    // and bear load there.
+    constexpr unsigned int largest_contact_loops = 5;
+
+    // Steps that are found need fewer iterations.
+    constexpr unsigned int largest_iterations = 15;
   } // namespace
 
 
@@ -102,102 +99,129 @@ namespace talus
   void
   StrengthReduction::begin(const double largest_strength)
   {
-    // growth_ is the relative growth of a factor without upper end. A larger
-    // reduction may fail because it is too large for one trial.
-    lower_ = upper_ = upper_from_ = 0.;
-    growth_                       = fastest_growth;
-    largest_strength_             = largest_strength;
+    lower_ = upper_   = 0.;
+    largest_strength_ = largest_strength;
+    is_done_          = false;
   }
 
 
 
-  /// A narrow bracket is not enough: its upper end may have failed because the
-  /// reduction from a much lower factor was too large for one trial. The upper
-  /// end counts if it was tried from a factor, upper_from_, within the
-  /// tolerance, up to the factor `nearby`.
-  bool
-  StrengthReduction::is_done() const
-  {
-    if (upper_ == 0.)
-      return lower_ >= largest_;
-    if (lower_ == 0.)
-      return upper_ <= min_factor();
-    return is_narrow() && upper_ - upper_from_ <= nearby * tolerance_ * lower_;
-  }
-
-
-
-  /// In this order: the first factor; upwards by growth_ while no factor has
-  /// failed; downwards by a factor of 1.5 while no factor has stood; if the
-  /// bracket is narrow, the upper end again, from the new lower end; otherwise
-  /// the middle. Only the upper end is tried a second time.
-  double
-  StrengthReduction::next() const
-  {
-    if (lower_ == 0. && upper_ == 0.)
-      return std::max(first_, min_factor());
-    if (upper_ == 0.)
-      // If the soil stands with less than the first factor, try the first
-      // factor next. After an upper end was withdrawn, continue in small steps.
-      return std::min(std::max((1. + growth_) * lower_,
-                               growth_ == fastest_growth ? first_ : 0.),
-                      std::max(largest_, lower_));
-    if (lower_ == 0.)
-      return std::max(upper_ / (1. + fastest_growth), min_factor());
-    return is_narrow() ? upper_ : 0.5 * (lower_ + upper_);
-  }
-
-
-
-  /// Trials start from the largest factor that stood, so a failure means only
-  /// "fails from there". An upper end that stands at its second trial is
-  /// withdrawn.
+  /// A failure with the full load does not bound the path: nothing is known of
+  /// factors between.
   void
   StrengthReduction::record(const double factor, const bool stands)
   {
+    (stands ? lower_ : upper_) = factor;
     if (!stands)
-      {
-        upper_      = factor;
-        upper_from_ = lower_;
-        return;
-      }
-    // The factor failed from farther below but stands now: continue in small
-    // steps.
-    if (factor == upper_)
-      {
-        upper_  = 0.;
-        growth_ = tolerance_;
-      }
-    // Double the growth with each success, up to its initial value.
-    lower_  = factor;
-    growth_ = std::min(2. * growth_, fastest_growth);
+      return;
+    upper_       = 0.;
+    path_        = {};
+    path_.factor = factor;
+    path_.change =
+      std::min(std::clamp(first_ - factor, 0.1 * factor, 0.25 * factor),
+               largest_ - factor);
+    growth_     = 2.;
+    n_failures_ = 0;
+    places_     = {{0., factor}};
+    is_done_    = (factor >= largest_);
   }
 
 
 
-  /// At the upper end of the bracket the soil lacks only about the tolerance
-  /// times the strength that it needs. The allowed imbalance must be small
-  /// against the tolerance, as otherwise soil on the way to failure would count
-  /// as balanced: with 1e-3 the slope of the paper seems to stand with 4.01
-  /// instead of 3.91. Trials that only narrow the bracket give up early. Trials
-  /// whose failure is the result may cut their steps as far as section
-  /// Equilibrium allows.
+  /// The kind of the steps stays while they are found. The path ends where the
+  /// factor stops to grow; softening soil has its limit at the largest factor.
+  void
+  StrengthReduction::record_step(const bool         is_found,
+                                 const unsigned int n_iterations)
+  {
+    if (!is_found)
+      return shorten_step();
+    const double gain = n_iterations <= few    ? growth_
+                        : n_iterations <= some ? 1.
+                                               : 0.7;
+    growth_           = std::min(2., 1.1 * growth_);
+    n_failures_       = 0;
+    lower_            = std::max(lower_, path_.factor);
+    places_.emplace_back(path_.displacement, path_.factor);
+    if (path_.factor >= largest_)
+      {
+        upper_   = 0.;
+        is_done_ = true;
+      }
+    (path_.by_factor ? path_.change : path_.length) *= gain;
+    path_.change =
+      std::min({path_.change, 0.25 * path_.factor, largest_ - path_.factor});
+    // Elastic soil fails with all factors above upper_.
+    if (upper_ > 0. && path_.direction.empty())
+      path_.change =
+        std::max(0.5 * (upper_ - path_.factor), tolerance_ * path_.factor);
+    if (!path_.by_factor &&
+        (path_.factor < (1. - tolerance_) * lower_ ||
+         std::abs(change_by_doubling()) < tolerance_ * path_.factor))
+      {
+        upper_   = lower_;
+        is_done_ = true;
+      }
+  }
+
+
+
+  /// A factor that fails may be near the limit, where only steps of given
+  /// length are found. Where they are not found either, the limit is far: steps
+  /// of the factor follow, half as large as before. The failure of a factor
+  /// within the tolerance is decisive.
+  void
+  StrengthReduction::shorten_step()
+  {
+    const double smallest = tolerance_ * path_.factor;
+    growth_               = 1.25;
+    if (path_.by_factor)
+      {
+        upper_          = std::max(path_.factor + path_.change, lower_);
+        is_done_        = (path_.change <= 1.001 * smallest);
+        path_.change    = std::max(0.5 * path_.change, smallest);
+        path_.by_factor = path_.direction.empty();
+      }
+    else
+      {
+        path_.length *= 0.4;
+        path_.by_factor = (++n_failures_ % 3 == 0);
+      }
+  }
+
+
+
+  /// Change of the factor while the displacement doubled, by the last three
+  /// steps or more [-]; infinite if it did not double.
+  double
+  StrengthReduction::change_by_doubling() const
+  {
+    const auto [s, factor] = places_.back();
+    for (std::size_t n = places_.size(); n >= 4; --n)
+      if (const auto [before, other] = places_[n - 4];
+          before > 0. && before <= 0.5 * s)
+        return (factor - other) / std::log2(s / before);
+    return INFINITY;
+  }
+
+
+
+  /// The allowed imbalance must be small against the tolerance, as otherwise
+  /// soil on the way to failure would count as balanced.
   StaticOptions
-  StrengthReduction::options(const double factor, StaticOptions options) const
+  StrengthReduction::options(StaticOptions options) const
   {
     options.allowed_imbalance =
-      allowed_imbalance_ > 0. ? allowed_imbalance_ : 0.02 * tolerance_;
+      allowed_imbalance_ > 0. ? allowed_imbalance_ : 0.1 * tolerance_;
     options.contact_tolerance = 0.1 * options.allowed_imbalance;
     options.facet_tolerance   = trial_facet_tolerance;
     // No state with less strength to start from: the full load must be applied.
     if (lower_ == 0.)
       return options;
-    options.n_load_steps  = 1;
-    const bool decides    = factor - lower_ <= nearby * tolerance_ * lower_;
-    options.max_failures  = decides ? 20 : 2;
-    options.smallest_step = decides
-                              ? std::min(smallest_step_, options.smallest_step)
-                              : smallest_step_;
+    options.n_load_steps          = 1;
+    options.largest_contact_loops = largest_contact_loops;
+    options.largest_iterations =
+      std::min(options.largest_iterations, largest_iterations);
     return options;
   }
 
@@ -206,8 +230,8 @@ namespace talus
   std::string
   StrengthReduction::result() const
   {
-    // Three results: no upper end, no lower end, or both; then the factor of
-    // safety is the middle of the bracket.
+    // Four results: no upper end, no lower end, the limit of the path, or a
+    // bracket, with the factor of safety in its middle.
     const std::string cannot_stand =
       is_less_than_one()
         ? " It is less than 1: the soil cannot stand with its strength."
@@ -227,14 +251,25 @@ namespace talus
                       "search."
                     : "; stronger soil would soften faster than it unloads.",
                   cannot_stand);
+    const std::string found =
+      upper_ > lower_ ? text(std::setprecision(6),
+                             ": the soil stands with its strength divided by ",
+                             lower_,
+                             " and fails with ",
+                             upper_,
+                             ".")
+      : path_.factor < (1. - tolerance_) * lower_
+        ? ", the largest of the path: the soil softens, and moves on with "
+          "smaller factors."
+        : text(std::setprecision(2),
+               ": the soil moves on with its strength divided by this; while "
+               "the displacement doubled, the factor changed by ",
+               std::abs(change_by_doubling()),
+               ".");
     return text(std::setprecision(6),
                 "The factor of safety is ",
                 factor(),
-                ": the soil stands with its strength divided by ",
-                lower_,
-                " and fails with ",
-                upper_,
-                ".",
+                found,
                 cannot_stand);
   }
 } // namespace talus

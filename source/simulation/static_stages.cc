@@ -174,7 +174,8 @@ namespace talus
             problem_.boundaries,
             problem_.loading.loads(),
             problem_.contact,
-            problem_.bodies().mudline()};
+            problem_.bodies().mudline(),
+            [this](const double factor) { divide_strength(factor); }};
   }
 
 
@@ -214,10 +215,8 @@ namespace talus
 
 
   /// Apply the load from zero to full. Nothing moves, which keeps the shape for
-  /// which a factor of safety is sought. In a trial the soil was in balance and
-  /// may have become weaker: first a load step without displacement returns the
-  /// stress to the new yield surface, and the resulting imbalance is the load.
-  /// A signal may be received by some ranks only.
+  /// which a factor of safety is sought. A signal may be received by some ranks
+  /// only.
   template <int dim>
   bool
   StaticStages<dim>::solve(const StaticOptions &options,
@@ -231,8 +230,6 @@ namespace talus
     };
     StaticProblem<dim> now = problem();
     equilibrium_.begin(options);
-    if (label.is_trial)
-      equilibrium_.return_stress(now);
     bool is_sound = true;
     while (is_sound && !equilibrium_.is_balanced())
       {
@@ -437,29 +434,41 @@ namespace talus
                                                  state_.communicator()));
     // Uses the search of the reduction, from above: factors less than one.
     strength_reduction_.record(1., false);
-    while (strength_reduction_.lower() == 0.)
+    if (!search_standing_factor(before, equilibrium_.options()) &&
+        !equilibrium_.is_stopped())
+      throw_no_equilibrium(sentence +
+                           " No balance was found with more strength either. " +
+                           strength_reduction_.result());
+    standing_factor_ = strength_reduction_.lower();
+  }
+
+
+
+  /// Apply the full load to soil of more and more strength, from the state
+  /// @p before without loads, until it stands. Returns whether it does.
+  /// Collective.
+  template <int dim>
+  bool
+  StaticStages<dim>::search_standing_factor(const Saved         &before,
+                                            const StaticOptions &options)
+  {
+    while (strength_reduction_.lower() == 0. && !strength_reduction_.is_done())
       {
-        if (strength_reduction_.is_done())
-          throw_no_equilibrium(sentence +
-                               " No balance was found with more strength "
-                               "either. " +
-                               strength_reduction_.result());
         const double factor = strength_reduction_.next();
         restore(before);
         divide_strength(factor);
-        const bool stands =
-          solve(equilibrium_.options(), {stages_.number(), factor});
+        const bool stands = solve(options, {stages_.number(), factor});
         if (equilibrium_.is_stopped())
-          return;
+          return false;
         strength_reduction_.record(factor, stands);
         log_.say(LogLevel::result,
                  text(std::setprecision(6),
-                      "  strength x ",
-                      1. / factor,
+                      "  strength / ",
+                      factor,
                       stands ? ": stands"
                              : ": fails. " + equilibrium_.failure()));
       }
-    standing_factor_ = strength_reduction_.lower();
+    return strength_reduction_.lower() > 0.;
   }
 
 
@@ -476,7 +485,7 @@ namespace talus
                                                  state_.communicator()));
     if (stages_.contain(Stage::equilibrium))
       start_reduction();
-    search_factor();
+    search_factor(before);
     if (equilibrium_.is_stopped())
       return;
     restore(before);
@@ -495,41 +504,57 @@ namespace talus
 
 
 
-  /// Every trial starts from the state with the largest factor so far at which
-  /// the soil stood. Compared with full strength, less is out of balance, and
-  /// the search is cheaper. But the result must not depend on the path of the
-  /// search; therefore StrengthReduction checks the upper end a second time. A
-  /// signal ends the search, also before the first trial.
+  /// Without the stage 'equilibrium', a factor with which the soil stands is
+  /// searched first.
   template <int dim>
   void
-  StaticStages<dim>::search_factor()
+  StaticStages<dim>::search_factor(const Saved &before)
   {
-    auto state = save();
-    while (!equilibrium_.is_stopped() && !strength_reduction_.is_done())
+    if (search_standing_factor(
+          before, strength_reduction_.options(equilibrium_.options())))
+      follow_path();
+    if (!equilibrium_.is_stopped() && strength_reduction_.upper() > 0.)
       {
-        const double factor = strength_reduction_.next();
-        const bool   stands = is_stable_with(factor);
+        write_mechanism("mechanism");
+        failure_depth_.record(equilibrium_.newton().mechanism(state_.points));
+      }
+  }
+
+
+
+  /// Points and contact change only in steps that are found. A signal ends the
+  /// search.
+  template <int dim>
+  void
+  StaticStages<dim>::follow_path()
+  {
+    const bool    is_first = is_first_rank(state_.communicator());
+    StrengthPath &path     = strength_reduction_.path();
+    equilibrium_.begin(strength_reduction_.options(equilibrium_.options()));
+    while (!strength_reduction_.is_done())
+      {
+        SearchLabel        label{stages_.number(), path.factor, true};
+        unsigned int       n_iterations = 0;
+        StaticProblem<dim> now          = problem();
+        const bool         is_found     = equilibrium_.follow(
+          now, path, [&](const EquilibriumProgress &progress) {
+            label.strength_factor = path.factor;
+            ++n_iterations;
+            table_.add(label, progress, is_first);
+            return !Utilities::MPI::logical_or(!remembered_signal().empty(),
+                                               state_.communicator());
+          });
+        table_.end_step(label);
         if (equilibrium_.is_stopped())
           return;
-        strength_reduction_.record(factor, stands);
-        log_.say(
-          LogLevel::result,
-          stands
-            ? text(std::setprecision(6), "  strength / ", factor, ": stands")
-            : text(std::setprecision(6),
-                   "  strength / ",
-                   factor,
-                   ": fails. ",
-                   equilibrium_.failure()));
-        if (stands)
-          state = save();
-        else // the last failed trial has the smallest factor
-          {
-            write_mechanism("mechanism");
-            failure_depth_.record(
-              equilibrium_.newton().mechanism(state_.points));
-          }
-        restore(state);
+        log_.say(LogLevel::result,
+                 text(std::setprecision(6),
+                      "  strength / ",
+                      label.strength_factor,
+                      is_found
+                        ? ": stands"
+                        : ": the step fails. " + equilibrium_.failure()));
+        strength_reduction_.record_step(is_found, n_iterations);
       }
   }
 
@@ -542,8 +567,11 @@ namespace talus
   StaticStages<dim>::start_reduction()
   {
     strength_reduction_.record(standing_factor_, true);
+    divide_strength(standing_factor_);
     AssertThrow(
-      is_stable_with(standing_factor_) || equilibrium_.is_stopped(),
+      solve(strength_reduction_.options(equilibrium_.options()),
+            {stages_.number(), standing_factor_, true}) ||
+        equilibrium_.is_stopped(),
       ExcUser(text(
         "The stage 'strength reduction' starts from soil that is out of "
         "balance, so that no factor of safety exists. ",
@@ -551,18 +579,6 @@ namespace talus
         ". Set 'Equilibrium/Allowed imbalance' to less; or, if the imbalance "
         "is small against the required 'Tolerance' of the factor, set "
         "'Strength reduction/Allowed imbalance' to more.")));
-  }
-
-
-
-  /// Search for balance with all strengths divided by @p factor [-].
-  template <int dim>
-  bool
-  StaticStages<dim>::is_stable_with(const double factor)
-  {
-    divide_strength(factor);
-    return solve(strength_reduction_.options(factor, equilibrium_.options()),
-                 {stages_.number(), factor, true});
   }
 
 

@@ -125,18 +125,21 @@ class BadInputStages(Case):
 
     def test_load_steps_without_end(self):
         """A step that fails would be halved for ever."""
-        for section in ("Equilibrium", "Strength reduction"):
-            result = self.run_slope("Stages=equilibrium, strength reduction",
-                                    f"{section}/Smallest load step=0")
-            self.assert_refused(result, "'Smallest load step' is '0'",
-                                "from 1e-06 to 1")
+        result = self.run_slope("Equilibrium/Smallest load step=0")
+        self.assert_refused(result, "'Smallest load step' is '0'",
+                            "from 1e-06 to 1")
+
+    def test_former_load_steps_of_strength_reduction(self):
+        result = self.run_slope("Strength reduction/Smallest load step=0.1")
+        self.assert_refused(result, "no parameter 'Smallest load step'",
+                            "without load steps: remove the line")
 
     def test_factor_of_safety_less_than_one(self):
         result = self.run_slope("Stages=equilibrium, strength reduction",
                                 self.WEAK_CLAY, self.WEAK_SEABED)
         self.assertEqual(result.returncode, 0, result)
         for words in ("'equilibrium' found no balance beyond 0.",
-                      "looked for with more strength", "strength x ",
+                      "looked for with more strength", "strength / 0.",
                       "The factor of safety is 0.37", "It is less than 1: the "
                       "soil cannot stand with its strength."):
             self.assertIn(words, result.stdout)

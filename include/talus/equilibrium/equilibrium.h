@@ -70,11 +70,13 @@ namespace talus
     bool
     advance(StaticProblem<dim> &problem, const Observer &observe);
 
-    /// Return stresses to the yield surface. To be called after begin() if the
-    /// strength has been reduced: nothing moves, but the soil may lose its
-    /// balance. Collective.
-    void
-    return_stress(StaticProblem<dim> &problem);
+    /// Take the next step along the @p path of decreasing strength; see
+    /// Newton::follow(). Returns whether the step was found; otherwise
+    /// failure() gives the reason, and nothing has changed. Collective.
+    bool
+    follow(StaticProblem<dim> &problem,
+           StrengthPath       &path,
+           const Observer     &observe);
 
     /// Return whether all load is applied and the imbalance is within
     /// tolerance.
@@ -157,7 +159,6 @@ namespace talus
     StaticOptions       options_; ///< options of the current search
     unsigned int        n_steps_    = 0;
     unsigned int        n_settling_ = 0; ///< steps taken at full load
-    unsigned int        n_failures_ = 0; ///< load steps that failed
     double              imbalance_  = 0;
     bool                is_found_   = false;
     bool                is_stopped_ = false;

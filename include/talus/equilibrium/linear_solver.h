@@ -36,6 +36,12 @@ namespace talus
           const dealii::TrilinosWrappers::MPI::Vector  &rhs,
           bool                                          is_symmetric);
 
+    /// Solve for another @p rhs with the factors of the last solve(), which
+    /// must have succeeded. Collective.
+    bool
+    solve_again(dealii::TrilinosWrappers::MPI::Vector       &x,
+                const dealii::TrilinosWrappers::MPI::Vector &rhs);
+
   private:
     class Amesos;
     bool
@@ -73,6 +79,7 @@ namespace talus
     const RigidModes &modes;         ///< for multigrid
     unsigned int      dim;           ///< number of unknowns per node
     bool symmetric; ///< whether the matrix is symmetric, positive definite
+    bool is_factorized = false; ///< whether the matrix is that of the last call
   };
 
 

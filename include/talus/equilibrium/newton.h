@@ -23,6 +23,23 @@ namespace talus
 
 
 
+  /// Place on the path of decreasing strength, and the next step along it.
+  struct StrengthPath
+  {
+    double factor       = 1.; ///< divisor of all strengths [-]
+    double displacement = 0.; ///< length of the path so far, m
+    /// Whether the next step is given by the change of the factor; otherwise by
+    /// its length.
+    bool   by_factor = true;
+    double change    = 0.; ///< growth of the factor in the next step [-]
+    double length    = 0.; ///< length of the next step along the direction, m
+    /// Displacements at the nodes in the last step, over their norm; empty if
+    /// nothing has moved.
+    std::vector<double> direction;
+  };
+
+
+
   /// Newton's method with the consistent tangent @cite simo1998, for the
   /// displacements of one load step at which stress and loads balance
   /// (StaticEquations).
@@ -56,6 +73,15 @@ namespace talus
     /// points and contact are unchanged. Collective.
     Outcome
     solve(StaticProblem<dim> &problem, double share, const Observer &observe);
+
+    /// Solve for the displacements of the next step along the @p path of
+    /// decreasing strength. In a step of given length the factor is an unknown
+    /// @cite riks1979: at the limit no factor needs to be guessed. If the
+    /// solution fails, path and contact stay as they were. Collective.
+    Outcome
+    follow(StaticProblem<dim> &problem,
+           StrengthPath       &path,
+           const Observer     &observe);
 
     /// Apply the solution to stress and internal variables of the points.
     void
@@ -115,6 +141,22 @@ namespace talus
     /// sentence.
     std::string
     newton_update(StaticProblem<dim> &problem, NewtonIteration &iteration);
+    void
+    set_factor(StaticProblem<dim> &problem, double factor);
+    /// Solve for displacements, factor and contact states together.
+    Outcome
+    solve_for_factor(StaticProblem<dim> &problem,
+                     StrengthPath       &path,
+                     const Observer     &observe);
+    /// Solve for displacements and factor with fixed contact states.
+    Outcome
+    path_loop(StaticProblem<dim> &problem,
+              StrengthPath       &path,
+              const Observer     &observe);
+    std::string
+    path_update(StrengthPath              &path,
+                const std::vector<double> &by_factor,
+                double                     along);
     double
     line_search(StaticProblem<dim>        &problem,
                 const std::vector<double> &direction);

@@ -159,6 +159,16 @@ namespace talus
           const Unknowns<dim>      &unknowns,
           double                    modulus);
 
+    /// Read the limits of friction again, after a change of the strength of
+    /// beds.
+    void
+    renew_limits(const StaticProblem<dim> &problem)
+    {
+      for (auto &place : places_)
+        if (place.area > 0. || (place.n_nodes > 0 && place.stiffness == 0.))
+          place.limit = problem.contact.constraints().limit(place.number);
+    }
+
     /// Components held by walls and by contact, by node: bit d for axis d.
     std::vector<unsigned char>
     held(const StaticProblem<dim> &problem,

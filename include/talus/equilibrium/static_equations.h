@@ -79,10 +79,12 @@ namespace talus
       std::string         failure;      ///< end of a sentence; empty: solved
     };
 
-    /// Solve K du = @p residual for the displacements du. Collective.
+    /// Solve K du = @p residual for the displacements du, or again, with the
+    /// matrix of the previous call, if @p keeps_matrix. Collective.
     Correction
     solve_tangent(const LinearSolver        &linear_solver,
-                  const std::vector<double> &residual);
+                  const std::vector<double> &residual,
+                  bool                       keeps_matrix = false);
 
     /// Update the contact after a solution with the displacements @p u, m, and
     /// the @p residual, N; see StaticContact::update(). May correct @p u.

@@ -27,6 +27,9 @@ namespace talus
     /// Height of the mudline above or below a place, m; not a number where the
     /// vertical meets no soil. Empty if the mudline is unknown.
     std::function<double(const dealii::Point<dim> &)> mudline = {};
+    /// Divides the strengths of soil and beds by a factor [-]; for strength
+    /// reduction.
+    std::function<void(double)> divide_strength = {};
   };
 
 
@@ -40,8 +43,6 @@ namespace talus
     double       allowed_imbalance = 1e-6; ///< limit for soil in balance [-]
     /// Whether to subtract the error of the weight (WellBalancedLoad).
     bool is_well_balanced = true;
-    /// Number of load steps that may fail and be cut [-].
-    unsigned int max_failures = -1;
 
     // Newton's method
     double tolerance = 1e-8; ///< relative residual [-]
@@ -50,9 +51,10 @@ namespace talus
     double contact_tolerance = 0.;
     /// Distance by which facets of obstacles may give way in a load step, over
     /// the largest displacement [-].
-    double       facet_tolerance    = 1e-5;
-    unsigned int largest_iterations = 30;
-    double       ghost_penalty      = 0.01; ///< gamma [-]
+    double       facet_tolerance       = 1e-5;
+    unsigned int largest_contact_loops = 50; ///< in a load step [-]
+    unsigned int largest_iterations    = 30;
+    double       ghost_penalty         = 0.01; ///< gamma [-]
   };
 
 

@@ -8,16 +8,17 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace talus
 {
   /// Factor of safety: the largest number by which all strengths can be divided
-  /// with the soil still in balance, by shear strength reduction.
-  /// @cite griffiths1999 The factor is less than 1 if the soil needs more
-  /// strength to stand. Trial factors that grow or fall by a half give a
-  /// bracket, which is then bisected. Failure of the soil counts only after the
-  /// soil stood with nearly the same factor, as a larger reduction may be too
-  /// large for one trial.
+  /// with the soil still in balance, by shear strength reduction
+  /// @cite griffiths1999. The factor is less than 1 if the soil needs more
+  /// strength to stand. Factors fall until the soil stands; from there the path
+  /// of decreasing strength is followed: by steps of the factor while they
+  /// succeed, then by steps of given length, whose factor is an unknown.
   class StrengthReduction : public dealii::ParameterAcceptor
   {
   public:
@@ -32,18 +33,37 @@ namespace talus
     void
     begin(double largest_strength);
 
-    /// Return whether the bracket is narrow enough, with an upper end tried
-    /// from within the tolerance, or has reached the limits of the factor.
+    /// Return whether the path has come to its limit, or the factors to theirs.
     bool
-    is_done() const;
+    is_done() const
+    {
+      return is_done_ ||
+             (lower_ == 0. && upper_ > 0. && upper_ <= min_factor());
+    }
 
-    /// Factor to try next [-].
+    /// Factor to try next with the full load, until the soil stands [-].
     double
-    next() const;
+    next() const
+    {
+      return std::max(upper_ > 0. ? upper_ / 1.5 : first_, min_factor());
+    }
 
     /// Record whether the soil stands with its strength divided by @p factor.
+    /// If it stands, the path begins here.
     void
     record(double factor, bool stands);
+
+    /// Path of decreasing strength, with the step to take next.
+    StrengthPath &
+    path()
+    {
+      return path_;
+    }
+
+    /// Record whether the next step of the path was found, and plan the next:
+    /// steps found in few iterations grow.
+    void
+    record_step(bool is_found, unsigned int n_iterations);
 
     /// Describe the result in one or two sentences.
     std::string
@@ -56,7 +76,8 @@ namespace talus
       return lower_;
     }
 
-    /// Smallest factor above lower() with which the soil failed; 0 if unknown.
+    /// Smallest factor above lower() with which the soil failed, or lower() if
+    /// the path has come to its limit; 0 if unknown.
     double
     upper() const
     {
@@ -77,14 +98,11 @@ namespace talus
       return upper_ > 0. && upper_ <= 1.;
     }
 
-    /// Options of the search for equilibrium with @p factor, derived from
-    /// @p options of section Equilibrium. If the soil stands with a smaller
-    /// factor, the load is applied in one step, which is halved at most to the
-    /// smallest load step of this section. If the factor is within the
-    /// tolerance, where failure decides, the smallest load step of section
-    /// Equilibrium applies.
+    /// Options of the search for equilibrium with a factor, derived from
+    /// @p options of section Equilibrium. Soil that stands with a smaller
+    /// factor takes the change in one step.
     StaticOptions
-    options(double factor, StaticOptions options) const;
+    options(StaticOptions options) const;
 
     /// Return whether the strength of the seabed is divided, too.
     bool
@@ -101,26 +119,27 @@ namespace talus
       // would soften faster than it can unload (doc/method.md, section 12).
       return std::max(smallest_, 1. / largest_strength_);
     }
-    bool
-    is_narrow() const
-    {
-      // Both ends of the bracket must be known.
-      return upper_ - lower_ <= tolerance_ * lower_;
-    }
+    void
+    shorten_step();
+    double
+    change_by_doubling() const;
 
     // Parameters
     double first_             = 1.;
-    double tolerance_         = 0.005;
+    double tolerance_         = 0.001;
     double largest_           = 100.;
     double smallest_          = 0.01;
-    double smallest_step_     = 0.1;
     double allowed_imbalance_ = 0.;
     bool   includes_seabed_   = true;
 
-    double lower_ = 0, upper_ = 0;
-    double upper_from_       = 0; ///< lower_ when upper_ failed
-    double growth_           = 0; ///< next growth of lower_ without upper_ [-]
-    double largest_strength_ = 0;
+    double       lower_ = 0, upper_ = 0;
+    double       largest_strength_ = 0;
+    StrengthPath path_;
+    double growth_ = 0; ///< largest ratio of a step to the previous one [-]
+    unsigned int n_failures_ = 0; ///< one after the other
+    bool         is_done_    = false;
+    /// Displacement, m, and factor [-] after the steps so far.
+    std::vector<std::pair<double, double>> places_;
   };
 } // namespace talus
 

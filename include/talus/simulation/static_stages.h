@@ -131,14 +131,16 @@ namespace talus
     divide_strength(double factor);
     void
     reduce_strength(const Saved &before);
+    bool
+    search_standing_factor(const Saved &before, const StaticOptions &options);
     void
-    search_factor();
+    search_factor(const Saved &before);
+    void
+    follow_path();
     void
     start_reduction();
     void
     undo_stage(const Saved &before);
-    bool
-    is_stable_with(double factor);
     void
     write_mechanism(const std::string &name) const;
 

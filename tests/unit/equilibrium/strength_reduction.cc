@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "core_setup.h"
 
@@ -20,19 +21,59 @@ namespace
       dealii::ParameterAcceptor::parse_all_parameters();
     }
 
-    /// Search for the factor of soil that stands up to @p factor, if it is not
-    /// reduced by more than the share @p at_once of what it stood with.
+    /// Search for the factor of soil that fails above @p factor, where nothing
+    /// moves before.
     void
-    search(const double factor,
-           const double largest_strength = INFINITY,
-           const double at_once          = INFINITY)
+    search(const double factor, const double largest_strength = INFINITY)
     {
       begin(largest_strength);
-      for (tried.clear(); !is_done() && tried.size() < 1000;)
+      for (tried.clear(); lower() == 0. && !is_done();)
         {
-          const double most = lower() > 0. ? (1. + at_once) * lower() : 1e9;
           tried.push_back(next());
-          record(tried.back(), tried.back() <= factor && tried.back() <= most);
+          record(tried.back(), tried.back() <= factor);
+        }
+      while (lower() > 0. && !is_done() && tried.size() < 1000)
+        {
+          tried.push_back(path().factor + path().change);
+          const bool is_found = (tried.back() <= factor);
+          if (is_found)
+            path().factor = tried.back();
+          record_step(is_found, 1);
+        }
+    }
+
+    /// Follow the path of soil that moves by s with the factor @p curve (s),
+    /// which grows up to the displacement 1 at least. Steps longer than
+    /// @p longest fail.
+    void
+    follow(const std::function<double(double)> &curve, const double longest)
+    {
+      const auto displacement = [&](const double factor) {
+        double s = 0.;
+        while (s < 1. && curve(s) < factor)
+          s += 1e-4;
+        return s;
+      };
+      begin(INFINITY);
+      record(curve(0.), true);
+      for (tried.clear(); !is_done() && tried.size() < 10000;)
+        {
+          StrengthPath &next   = path();
+          const double  before = next.displacement;
+          const double  after  = next.by_factor
+                                   ? displacement(next.factor + next.change)
+                                   : before + next.length;
+          tried.push_back(next.by_factor ? next.factor + next.change : 0.);
+          const bool is_found =
+            after - before <= longest && !(next.by_factor && after >= 1.);
+          if (is_found)
+            {
+              next.factor       = curve(after);
+              next.displacement = after;
+              next.length       = after - before;
+              next.direction    = {1.};
+            }
+          record_step(is_found, 5);
         }
     }
 
@@ -52,7 +93,7 @@ namespace
 
 
 
-  TEST(StrengthReductionTest, FindsTheFactorOfSafety)
+  TEST(StrengthReductionTest, FindsTheFactorOfSoilThatFailsAtOnce)
   {
     Reduction reduction("set Tolerance = 1e-4");
     for (const double factor : {0.0123, 0.31, 0.999, 1., 1.37, 2.25, 17., 99.9})
@@ -62,10 +103,10 @@ namespace
         EXPECT_LE(reduction.lower(), factor);
         EXPECT_GT(reduction.upper(), factor);
         EXPECT_LE(reduction.upper() - reduction.lower(),
-                  1e-4 * reduction.lower());
-        // A bracket of half its factor, halved until it is narrow enough.
-        // At last the upper end once more, if it failed from farther below.
-        EXPECT_LE(reduction.tried.size(), 13u + 14u + 1u);
+                  1.01e-4 * reduction.lower());
+        // Downwards, upwards, and a bracket of a quarter halved until it is
+        // narrow enough.
+        EXPECT_LE(reduction.tried.size(), 13u + 20u + 14u);
         EXPECT_TRUE(contains(reduction.result(),
                              text(std::setprecision(6),
                                   "The factor of safety is ",
@@ -84,62 +125,99 @@ namespace
   {
     Reduction reduction("set First factor = 2");
     reduction.search(4.);
-    expect_factors(reduction.tried, {2., 3., 4.5, 3.75, 4.125});
+    expect_factors(reduction.tried, {2., 2.2, 2.6, 3.25, 4.0625, 3.65625});
     reduction.search(1.);
-    expect_factors(reduction.tried, {2., 2. / 1.5, 2. / 2.25, 10. / 9.});
+    expect_factors(reduction.tried, {2., 2. / 1.5, 2. / 2.25});
+    // Soil that stands already goes towards the first factor.
+    reduction.begin(INFINITY);
+    reduction.record(1.8, true);
+    EXPECT_DOUBLE_EQ(reduction.path().change, 0.2);
   }
 
 
 
-  // Where a trial fails because it asks for too much at once, the factor is
-  // found all the same.
-  TEST(StrengthReductionTest, FailureCountsOnlyFromNearby)
+  TEST(StrengthReductionTest, FindsTheLimitOfThePath)
   {
-    Reduction reduction("set Tolerance = 0.005");
-    for (const double factor : {0.31, 0.999, 1., 1.37, 6.83, 17.})
-      for (const double at_once : {0.3, 0.1, 0.03, 0.01, 0.006})
-        {
-          reduction.search(factor, INFINITY, at_once);
-          ASSERT_TRUE(reduction.is_done()) << factor << ", " << at_once;
-          EXPECT_LE(reduction.lower(), factor);
-          EXPECT_GT(reduction.upper(), factor) << at_once;
-          EXPECT_LE(reduction.upper() - reduction.lower(),
-                    0.005 * reduction.lower());
-        }
-    // Also that of the start: it is tried again.
-    reduction.begin(INFINITY);
-    reduction.record(1., false);
-    EXPECT_DOUBLE_EQ(reduction.next(), 1. / 1.5);
-    reduction.begin(INFINITY);
-    reduction.record(1. / 1.5, true);
-    EXPECT_DOUBLE_EQ(reduction.next(), 1.);
+    // A limit approached fast or slowly. Where the distance from the limit
+    // falls as 1/s, it is at most 1/ln 2 times the change by a doubling.
+    for (const double tolerance : {0.01, 1e-3, 1e-4})
+      for (const double longest : {1e9, 0.5, 0.1})
+        for (const double limit : {0.37, 1.44})
+          for (const bool fast : {true, false})
+            {
+              Reduction reduction(text("set Tolerance = ", tolerance));
+              reduction.follow(
+                [&](const double s) {
+                  return limit * (fast ? 1. - 0.3 * std::exp(-5. * s)
+                                       : 1. - 0.3 / (1. + 5. * s));
+                },
+                fast ? longest : std::max(longest, 0.5));
+              ASSERT_TRUE(reduction.is_done());
+              EXPECT_LE(reduction.factor(), limit);
+              EXPECT_NEAR(reduction.factor(), limit, 1.45 * tolerance * limit)
+                << tolerance << ", " << longest << ", " << fast;
+              if (longest > 1.)
+                EXPECT_TRUE(
+                  contains(reduction.result(), "moves on with its strength"));
+              EXPECT_EQ(reduction.is_less_than_one(), limit < 1.);
+            }
   }
 
 
 
-  // The failure that decides is not for want of small load steps.
-  TEST(StrengthReductionTest, LoadStepsAreCutFartherNearby)
+  // The largest factor counts, also where the path falls again.
+  TEST(StrengthReductionTest, LimitOfSofteningSoil)
   {
-    Reduction reduction("set Tolerance = 0.01\nset Smallest load step = 0.2");
+    Reduction reduction;
+    reduction.follow(
+      [](const double s) { return 1.5 - 0.5 * (s - 1.) * (s - 1.); }, 0.1);
+    ASSERT_TRUE(reduction.is_done());
+    EXPECT_NEAR(reduction.factor(), 1.5, 1.5e-3);
+    EXPECT_LT(reduction.path().factor, 1.5);
+  }
+
+
+
+  // Where no step of given length is found, factors are tried.
+  TEST(StrengthReductionTest, FactorsDecideWhereNoLengthIsFound)
+  {
+    Reduction reduction;
+    reduction.begin(INFINITY);
+    reduction.record(1., true);
+    unsigned int n = 0;
+    for (; !reduction.is_done() && n < 1000; ++n)
+      {
+        StrengthPath &next     = reduction.path();
+        const double  factor   = next.factor + next.change;
+        const bool    is_found = next.by_factor && factor <= 1.2345;
+        if (is_found)
+          {
+            next.factor    = factor;
+            next.direction = {1.};
+          }
+        reduction.record_step(is_found, 9);
+      }
+    EXPECT_LT(n, 60u);
+    EXPECT_LE(reduction.lower(), 1.2345);
+    EXPECT_GT(reduction.upper(), 1.2345);
+    EXPECT_LE(reduction.upper(), 1.00101 * reduction.lower());
+  }
+
+
+
+  TEST(StrengthReductionTest, StandingSoilTakesTheChangeInOneStep)
+  {
+    Reduction     reduction("set Tolerance = 0.01");
     StaticOptions own;
     own.n_load_steps = 7;
     reduction.begin(INFINITY);
-    EXPECT_EQ(reduction.options(1., own).smallest_step, 1e-3);
-    EXPECT_EQ(reduction.options(1., own).n_load_steps, 7u);
+    EXPECT_EQ(reduction.options(own).n_load_steps, 7u);
     reduction.record(2., true);
-    EXPECT_EQ(reduction.options(2.1, own).smallest_step, 0.2);
-    EXPECT_EQ(reduction.options(2.1, own).n_load_steps, 1u);
-    EXPECT_EQ(reduction.options(2.02, own).smallest_step, 1e-3);
-    EXPECT_LT(reduction.options(2.1, own).max_failures,
-              reduction.options(2.02, own).max_failures);
-
-    EXPECT_DOUBLE_EQ(reduction.options(2., own).allowed_imbalance, 2e-4);
-    EXPECT_EQ(Reduction("set Allowed imbalance = 3e-5")
-                .options(2., own)
-                .allowed_imbalance,
-              3e-5);
-    own.smallest_step = 0.5;
-    EXPECT_EQ(reduction.options(2.02, own).smallest_step, 0.2);
+    EXPECT_EQ(reduction.options(own).n_load_steps, 1u);
+    EXPECT_DOUBLE_EQ(reduction.options(own).allowed_imbalance, 1e-3);
+    EXPECT_EQ(
+      Reduction("set Allowed imbalance = 3e-5").options(own).allowed_imbalance,
+      3e-5);
   }
 
 
@@ -187,8 +265,8 @@ namespace
   {
     Reduction reduction("set Largest factor = 4\nset Smallest factor = 0.2");
     reduction.search(1e9);
-    expect_factors(reduction.tried, {1., 1.5, 2.25, 3.375, 4.});
-    EXPECT_EQ(reduction.tried.size(), 5u);
+    expect_factors(reduction.tried, {1., 1.1, 1.3, 1.625, 2.03125});
+    EXPECT_EQ(reduction.tried.back(), 4.);
     EXPECT_EQ(reduction.lower(), 4.);
     EXPECT_EQ(reduction.upper(), 0.);
     EXPECT_TRUE(contains(reduction.result(),

@@ -79,7 +79,7 @@ def safety(run):
                                     "reduction' did not run, or did not end."]),
              Lines([line for line in run.log.results if line != run.log.safety])]
     parts += mechanism(run, "mechanism", "How the soil fails when its strength is divided by "
-                       "more than the factor of safety: what is bright moves, arrows say where "
+                       "the factor of safety: what is bright moves, arrows say where "
                        "to, what is dark stays. The edge between them is the slip surface.")
     parts += mechanism(run, "no-equilibrium", "No equilibrium was found: how the soil moves.")
     if not run.log.results and len(parts) == 2 and run.stages.strip() == "dynamics":
