@@ -34,8 +34,8 @@ namespace talus
             const Constants      &constants,
             double                end_time);
 
-    /// Set the accelerations at time @p t, s, of a static stage or of the slide.
-    /// Call before loads().
+    /// Set the accelerations at time @p t, s, of a static stage or of the
+    /// slide. Call before loads().
     void
     update(const Points<dim> &points, double t, bool is_static = false);
 
