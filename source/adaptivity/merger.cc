@@ -20,11 +20,11 @@ namespace talus
     /// Stretch that a merged point must be able to bear before a split [-].
     constexpr double margin = 1.25;
 
-    /// Number of points of a cell down to which a film is merged: half as many
-    /// again as boxes of half a cell need. A film one point thick has a third
-    /// of this number and keeps its neighbours.
-    template <int dim>
-    constexpr unsigned int n_in_film = 3u << (dim - 1);
+    /// Number of points of a cell down to which a film is merged in 3-D: half
+    /// as many again as boxes of half a cell need. A film one point thick has a
+    /// third of this number and keeps its neighbours. In 2-D films are not
+    /// merged: on a bed with steps a merged point may sink by half a cell.
+    constexpr std::size_t n_in_film = 12;
 
     /// Misfit by round-off of boxes that fit exactly [-].
     constexpr double round_off = 1e-12;
@@ -307,11 +307,11 @@ namespace talus
   {
     sum_volumes(state.points, state.grid, state.nodes);
     n_kept_ = [&](const Segment &segment) -> std::size_t {
-      if (materials.of_body(segment.body).is_hyperelastic())
+      const bool film = is_film(state.grid.cells()[segment.cell], state.nodes);
+      if (materials.of_body(segment.body).is_hyperelastic() ||
+          (film && dim == 2))
         return state.points.size();
-      return is_film(state.grid.cells()[segment.cell], state.nodes)
-               ? n_in_film<dim>
-               : 0;
+      return film ? n_in_film : 0;
     };
     state.accounts.energy("merging work") +=
       merge(state.points,

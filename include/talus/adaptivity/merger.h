@@ -146,9 +146,9 @@ namespace talus
     double       length_    = 0.5;
     double       tolerance_ = 0.15;
 
-    /// Number of points down to which a segment is merged: in a film more than
-    /// boxes of half a cell need. All points of hyperelastic laws are kept,
-    /// as joint edges would change F, of which the stress is a function.
+    /// Number of points down to which a segment is merged. All points of films
+    /// in 2-D are kept, and of hyperelastic laws, as joint edges would change
+    /// F, of which the stress is a function.
     std::function<std::size_t(const Segment &)> n_kept_;
 
     std::vector<unsigned int> members_; ///< points of the current segment

@@ -292,26 +292,28 @@ namespace
 
 
 
-  // Eight boxes in a row, 0.1 m long and 0.2 m high, are neighbours. A film
-  // keeps six points in a cell: half as many again as boxes of half a cell
-  // need. Thick soil becomes two boxes: none may be longer than 0.5 m.
+  // Two rows of eight boxes each, 0.1 m long and 0.2 m high, are neighbours. A
+  // film keeps twelve points in a cell: half as many again as boxes of half a
+  // cell need. In thick soil each row becomes two boxes: none may be longer
+  // than 0.5 m.
   TEST(Merger, FilmsAreMergedOnlyInFullCells)
   {
     for (const bool is_thin : {true, false})
       {
-        Merging<2>   core;
-        Materials<2> materials(
+        Merging<3>   core;
+        Materials<3> materials(
           {{"clay", "linear elastic"}, {"rubber", "neo-Hookean"}});
         materials.assign({"soil"}, {"clay"});
         core.merger.open_accounts(core.accounts);
-        for (unsigned int i = 0; i < 8; ++i)
-          core.add({1.15 + 0.1 * i, 1.1}, Point<2>(0.1, 0.2));
+        for (unsigned int i = 0; i < 16; ++i)
+          core.add({1.15 + 0.1 * (i / 2), 1.1, 1.2 + 0.5 * (i % 2)},
+                   Point<3>(0.1, 0.2, 0.1));
         if (!is_thin)
-          for (unsigned int p = 0; p < 8; ++p)
+          for (unsigned int p = 0; p < 16; ++p)
             core.points.data(core.points.reference_volume)[p] = 1.;
         core.sort();
         core.merger.apply(core, core.splitter, materials);
-        EXPECT_EQ(core.points.size(), is_thin ? 6u : 2u);
+        EXPECT_EQ(core.points.size(), is_thin ? 12u : 4u);
       }
   }
 
