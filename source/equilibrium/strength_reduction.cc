@@ -155,9 +155,13 @@ namespace talus
     if (upper_ > 0. && path_.direction.empty())
       path_.change =
         std::max(0.5 * (upper_ - path_.factor), tolerance_ * path_.factor);
-    if (!path_.by_factor &&
-        (path_.factor < (1. - tolerance_) * lower_ ||
-         std::abs(change_by_doubling()) < tolerance_ * path_.factor))
+    // A single step may fall back to a smaller factor, and decides nothing.
+    const double before = places_[places_.size() - 2].second;
+    const bool   falls  = is_past_limit(before) && path_.factor < before;
+    const bool   stays =
+      is_past_limit(before) == is_past_limit(path_.factor) &&
+      std::abs(change_by_doubling()) < tolerance_ * path_.factor;
+    if (!path_.by_factor && (falls || stays))
       {
         upper_   = lower_;
         is_done_ = true;
@@ -258,7 +262,7 @@ namespace talus
                              " and fails with ",
                              upper_,
                              ".")
-      : path_.factor < (1. - tolerance_) * lower_
+      : is_past_limit(path_.factor)
         ? ", the largest of the path: the soil softens, and moves on with "
           "smaller factors."
         : text(std::setprecision(2),

@@ -119,6 +119,11 @@ namespace talus
       // would soften faster than it can unload (doc/method.md, section 12).
       return std::max(smallest_, 1. / largest_strength_);
     }
+    bool
+    is_past_limit(const double factor) const
+    {
+      return factor < (1. - tolerance_) * lower_;
+    }
     void
     shorten_step();
     double
