@@ -66,6 +66,9 @@ draw() {
   /usr/bin/python3 "$here/$script.py" "$@"
 }
 draw concepts $here
+rm -rf "$scratch/new-case"
+share/talus/talus-new prm/data/gully.asc prm/data/release.geojson 15 --output "$scratch/new-case"
+cp "$scratch/new-case/release.png" $here/new-case.png
 draw bar $here/bar.png $scratch/bar $scratch/bar-unsplit
 draw landslide $scratch/landslide $here/landslide.png
 draw landslide $scratch/first-slope $here/first-slope.png
