@@ -340,7 +340,8 @@ namespace talus
           known                   = cell;
           film                    = std::nullopt;
           if (is_film(state_.grid.cells()[cell], state_.nodes))
-            film = film_of(state_.points, begin, end);
+            film = dim == 3 ? film_of(state_.points, begin, end)
+                                          : Film<dim>(); // its shape does not count
         }
       return film;
     };

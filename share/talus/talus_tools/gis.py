@@ -48,10 +48,23 @@ def wgs_84():
 
 
 def system_of(words):
-    """Coordinate system of an EPSG code."""
+    """Coordinate system of a text, with longitude or easting first; None if unknown to GDAL."""
     system = osr.SpatialReference()
-    system.SetFromUserInput(words)
+    try:
+        system.SetFromUserInput(words)
+    except RuntimeError:
+        return None
     return traditional(system)
+
+
+class Quiet:
+    """GDAL prints no error in a block of this."""
+
+    def __enter__(self):
+        gdal.PushErrorHandler("CPLQuietErrorHandler")
+
+    def __exit__(self, *_):
+        gdal.PopErrorHandler()
 
 
 def are_degrees(west, east, south, north):
@@ -100,12 +113,9 @@ def transformed(places, source, target):
     """Places, shape (n, 2), in another coordinate system; infinite where there are none."""
     if source is None or target is None or source.IsSame(target):
         return numpy.asarray(places, dtype=float)
-    gdal.PushErrorHandler("CPLQuietErrorHandler")
-    try:
+    with Quiet():
         transform = osr.CoordinateTransformation(source, target)
         return numpy.array(transform.TransformPoints(numpy.asarray(places).tolist()))[:, :2]
-    finally:
-        gdal.PopErrorHandler()
 
 
 def utm_code(longitude, latitude):

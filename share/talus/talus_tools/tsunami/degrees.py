@@ -5,52 +5,23 @@ import dataclasses
 import math
 
 import numpy
-from osgeo import gdal, osr
 
 from talus_tools.errors import UserError
+from talus_tools.gis import system_of, transformed, wgs_84
 from talus_tools.plan import Cells
-
-osr.UseExceptions()
-
-
-def reference(words):
-    """Coordinate system of a text, with longitude or easting first; None if unknown to GDAL."""
-    system = osr.SpatialReference()
-    try:
-        system.SetFromUserInput(words)
-    except RuntimeError:
-        return None
-    system.SetAxisMappingStrategy(osr.OAMS_TRADITIONAL_GIS_ORDER)
-    return system
 
 
 def transformation(words, is_inverse=False):
     """Function from places on the map, shape (n, 2) [m], to degrees, or the inverse one. Places
     that the other system does not have are infinite."""
-    system = reference(words) if words else None
+    system = system_of(words) if words else None
     if system is None or not system.IsProjected() or system.GetLinearUnits() != 1:
         raise UserError("The source was asked for in degrees, but the coordinate system of the "
                         "map is not known, or not in metres: it is that of the raster of "
                         "'Maps/Raster', or of the first surface with a raster. Run talus on a "
                         "raster with a coordinate system, or leave out --degrees.")
-    systems = [system, reference("EPSG:4326")]
-    transform = osr.CoordinateTransformation(*(systems[::-1] if is_inverse else systems))
-
-    def apply(places):
-        with Quiet():
-            return numpy.array(transform.TransformPoints(numpy.asarray(places).tolist()))[:, :2]
-
-    return apply
-
-
-class Quiet:
-    """GDAL prints no error in a block of this."""
-
-    def __enter__(self):
-        gdal.PushErrorHandler("CPLQuietErrorHandler")
-
-    def __exit__(self, *_):
-        gdal.PopErrorHandler()
+    systems = [system, wgs_84()]
+    return lambda places: transformed(places, *(systems[::-1] if is_inverse else systems))
 
 
 def whole_turns(longitude, middle):
