@@ -339,9 +339,9 @@ namespace talus
           const auto [begin, end] = state_.points.range_of_cell(p);
           known                   = cell;
           film                    = std::nullopt;
+          // In 2-D only the presence of a film counts.
           if (is_film(state_.grid.cells()[cell], state_.nodes))
-            film = dim == 3 ? film_of(state_.points, begin, end)
-                                          : Film<dim>(); // its shape does not count
+            film = dim == 3 ? film_of(state_.points, begin, end) : Film<dim>();
         }
       return film;
     };
