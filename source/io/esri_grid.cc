@@ -10,7 +10,9 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <set>
+#include <sstream>
 #include <string_view>
 
 namespace talus
@@ -58,10 +60,10 @@ namespace talus
     class EsriText
     {
     public:
-      EsriText(const std::filesystem::path &file,
-               const unsigned int           n_columns,
-               const unsigned int           n_rows)
-        : name_("The raster '" + file.string() + "'")
+      EsriText(const std::string &file,
+               const unsigned int n_columns,
+               const unsigned int n_rows)
+        : name_("The raster '" + file + "'")
         , n_columns_(n_columns)
         , n_rows_(n_rows)
       {}
@@ -182,15 +184,44 @@ namespace talus
   // GDAL takes a text that is no number for 0, and reads numbers without regard
   // to lines: a missing number would shift all later ones.
   void
-  check_esri_grid(const std::filesystem::path &file,
-                  const unsigned int           n_columns,
-                  const unsigned int           n_rows)
+  check_esri_grid(std::istream      &in,
+                  const std::string &file,
+                  const unsigned int n_columns,
+                  const unsigned int n_rows)
   {
-    EsriText      content(file, n_columns, n_rows);
-    std::ifstream in(file, std::ios::binary);
+    EsriText content(file, n_columns, n_rows);
     for (std::string line; std::getline(in, line);)
       content.check_line(line);
     content.check_end();
+  }
+
+
+
+  std::string
+  geoclaw_as_esri_grid(const std::filesystem::path &file)
+  {
+    static const std::map<std::string, std::string> keywords = {
+      {"mx", "ncols"},
+      {"my", "nrows"},
+      {"xlower", "xllcenter"},
+      {"ylower", "yllcenter"},
+      {"nodatavalue", "nodata_value"}};
+    std::ifstream in(file, std::ios::binary);
+    std::string   line, head, number, keyword;
+    while (std::getline(in, line) &&
+           (std::istringstream(line) >> number >> keyword) &&
+           is_number(number) && std::isalpha(keyword[0]))
+      {
+        boost::to_lower(keyword);
+        const auto known = keywords.find(keyword);
+        head += (known == keywords.end() ? keyword : known->second) + " " +
+                number + "\n";
+      }
+    if (head.empty())
+      return head;
+    std::ostringstream rest;
+    rest << in.rdbuf();
+    return head + line + "\n" + rest.str();
   }
 
 

@@ -12,7 +12,10 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <memory>
+#include <sstream>
 
+#include <cpl_vsi.h>
 #include <gdal_priv.h>
 
 namespace talus
@@ -35,6 +38,20 @@ namespace talus
                           GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR,
                           nullptr,
                           options));
+    }
+
+
+
+    /// Open the text of an Esri ASCII grid, which must outlive the file.
+    GDALDatasetUniquePtr
+    open_text(std::string &grid)
+    {
+      const std::string name = "/vsimem/talus.asc";
+      VSIFCloseL(VSIFileFromMemBuffer(name.c_str(),
+                                      reinterpret_cast<GByte *>(grid.data()),
+                                      grid.size(),
+                                      FALSE));
+      return open(name);
     }
 
 
@@ -109,6 +126,7 @@ namespace talus
 
       const std::filesystem::path path_;
       const QuietGdal             quiet_;
+      std::string                 esri_grid_; ///< a text of GeoClaw's as one
       GDALDatasetUniquePtr        file_;
       GDALRasterBand             *band_         = nullptr;
       bool                        is_esri_grid_ = false;
@@ -120,8 +138,11 @@ namespace talus
       : path_(path)
     {
       GDALAllRegister();
-      file_ = open((has_byte_order_mark(path) ? "/vsisubfile/3," : "") +
-                   path.string());
+      esri_grid_ = geoclaw_as_esri_grid(path);
+      file_      = esri_grid_.empty()
+                     ? open((has_byte_order_mark(path) ? "/vsisubfile/3," : "") +
+                       path.string())
+                     : open_text(esri_grid_);
       check(file_ != nullptr,
             text("is no Esri ASCII grid, which begins with ncols or another "
                  "keyword, and GDAL cannot read it (",
@@ -139,7 +160,17 @@ namespace talus
         file_->GetDriver() != nullptr &&
         file_->GetDriver()->GetDescription() == std::string("AAIGrid");
       if (is_esri_grid_)
-        check_esri_grid(path, file_->GetRasterXSize(), file_->GetRasterYSize());
+        {
+          const auto in =
+            esri_grid_.empty()
+              ? std::unique_ptr<std::istream>(
+                  std::make_unique<std::ifstream>(path, std::ios::binary))
+              : std::make_unique<std::istringstream>(esri_grid_);
+          check_esri_grid(*in,
+                          path.string(),
+                          file_->GetRasterXSize(),
+                          file_->GetRasterYSize());
+        }
       // netCDF's attribute.
       const char *const sense = band_->GetMetadataItem("positive");
       check(sense == nullptr || std::strcmp(sense, "down") != 0,

@@ -14,6 +14,8 @@ from osgeo import gdal, ogr, osr
 
 from tools_case import TALUS, Case, main
 
+from talus_tools import gis
+
 gdal.UseExceptions()
 ogr.UseExceptions()
 
@@ -233,6 +235,20 @@ class Screen(Case):
         _, factors, said = self.factors(path, "--depths", "5,40,10")
         self.assertAlmostEqual(factors[50, 50] / self.exact(0.08, 40.), 1, 10)
         self.assertIn("1: 0.0 %", said)
+
+    def test_topography_of_geoclaw(self):
+        """Numbers of a topography of type 3 belong to the centres of cells."""
+        slope(self.folder / "same.tif", 0.2, 130., 40)
+        heights = gdal.Open(str(self.folder / "same.tif")).ReadAsArray()
+        path = self.folder / "same.tt3"
+        path.write_text("\n".join([
+            f"{40:9d} mx", f"{40:9d} my", f"{EAST + CELL / 2!r} xlower",
+            f"{NORTH - 39.5 * CELL!r} ylower", f"{CELL} cellsize", "-9999 nodata_value",
+            *(" ".join(map(repr, row)) for row in heights.tolist())]))
+        one, other = (gis.open_raster(str(self.folder / name)) for name in ("same.tif", path))
+        self.assertEqual(gis.extent(one), gis.extent(other))
+        # GDAL keeps the numbers of a text in single precision.
+        self.assertLess(abs(one.dataset.ReadAsArray() - other.dataset.ReadAsArray()).max(), 1e-5)
 
     def test_table_gaps_and_flats(self):
         path = self.folder / "flat.tif"

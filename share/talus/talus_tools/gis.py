@@ -18,6 +18,8 @@ METRES = {"": 1, "m": 1, "metre": 1, "metres": 1, "meter": 1, "meters": 1, "ft":
           "fathoms": 1.8288, "cm": 0.01, "km": 1000}
 NAMES = ("elevation", "z", "Band1")  # of the heights in a file with several rasters
 MOST_CELLS = 4_000_000
+GEOCLAW = {b"mx": b"ncols", b"my": b"nrows", b"xlower": b"xllcenter", b"ylower": b"yllcenter",
+           b"nodatavalue": b"nodata_value"}
 
 
 @dataclasses.dataclass
@@ -72,10 +74,32 @@ def are_degrees(west, east, south, north):
     return -180 <= west < east <= 360 and -90 <= south < north <= 90 and east - west < 90
 
 
-def open_raster(path):
-    """Open a raster of heights in any format of GDAL."""
+def geoclaw_as_esri_grid(path):
+    """GeoClaw's topography of type 3, which has the number before the keyword, as an Esri ASCII
+    grid; None for another file."""
+    head = []
     try:
-        dataset = gdal.Open(path)
+        with open(path, "rb") as stream:
+            for line in stream:
+                words = line.split() if len(line) < 200 else []
+                if len(words) != 2 or not words[1][:1].isalpha():
+                    break
+                float(words[0])
+                keyword = words[1].lower()
+                head.append(GEOCLAW.get(keyword, keyword) + b" " + words[0] + b"\n")
+            return b"".join([*head, line, stream.read()]) if head else None
+    except (OSError, ValueError):
+        return None
+
+
+def open_raster(path):
+    """Open a raster of heights in any format of GDAL, or a topography of GeoClaw."""
+    name = path
+    if (text := geoclaw_as_esri_grid(path)) is not None:
+        name = f"/vsimem/{path}.asc"
+        gdal.FileFromMemBuffer(name, text)
+    try:
+        dataset = gdal.Open(name)
         parts = {name.rsplit(":", 1)[-1]: name for name, _ in dataset.GetSubDatasets()}
         if parts and not dataset.RasterCount:
             chosen = next((name for name in NAMES if name in parts), None)

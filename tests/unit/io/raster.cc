@@ -155,6 +155,10 @@ namespace raster_test
       "\xef\xbb\xbfnrows 3\r\nncols 4\r\ndy 100\r\ndx 2.e+2\r\nyllcorner "
       "2000\r\nxllcorner +1000\r\n\r\n" +
         rows() + "\r\n",
+      // GeoClaw's topography of type 3.
+      "  4  mx\n  3  my\n1.1e3 xlower\n2050. ylower\n200 dx\n100 dy\n"
+      "-9999 nodata_value\n" +
+        rows("  "),
     };
     for (const std::string &content : dialects)
       {
