@@ -34,7 +34,8 @@ _talus_tool()
     talus-screen) options='--depths --strength --horizontal --density --water-density --length
       --output' reads_file=any ;;
     talus-tsunami)
-      options='--interval --start-time --width --water-depth --degrees --netcdf --output' ;;
+      options='--interval --start-time --width --water-depth --degrees --netcdf --geoclaw
+        --sea-level --output' ;;
     talus-study) options='--output --program --at-once --list --member --collect' reads_file=yes ;;
   esac
   COMPREPLY=()

@@ -207,15 +207,26 @@ namespace talus
       {"ylower", "yllcenter"},
       {"nodatavalue", "nodata_value"}};
     std::ifstream in(file, std::ios::binary);
-    std::string   line, head, number, keyword;
-    while (std::getline(in, line) &&
-           (std::istringstream(line) >> number >> keyword) &&
-           is_number(number) && std::isalpha(keyword[0]))
+    std::string   line, head;
+    while (std::getline(in, line))
       {
+        std::istringstream words(line);
+        std::string        number, keyword, dy;
+        if (!(words >> number >> keyword) || !is_number(number))
+          break;
+        if (is_number(keyword)) // dx, dy and the word cellsize
+          {
+            dy = keyword;
+            words >> keyword;
+          }
+        if (!std::isalpha(keyword[0]))
+          break;
         boost::to_lower(keyword);
         const auto known = keywords.find(keyword);
-        head += (known == keywords.end() ? keyword : known->second) + " " +
-                number + "\n";
+        head += dy.empty()
+                  ? (known == keywords.end() ? keyword : known->second) + " " +
+                      number + "\n"
+                  : "dx " + number + "\ndy " + dy + "\n";
       }
     if (head.empty())
       return head;

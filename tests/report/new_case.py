@@ -247,8 +247,8 @@ class Screen(Case):
             *(" ".join(map(repr, row)) for row in heights.tolist())]))
         one, other = (gis.open_raster(str(self.folder / name)) for name in ("same.tif", path))
         self.assertEqual(gis.extent(one), gis.extent(other))
-        # GDAL keeps the numbers of a text in single precision.
-        self.assertLess(abs(one.dataset.ReadAsArray() - other.dataset.ReadAsArray()).max(), 1e-5)
+        # GDAL keeps the numbers of a text in single precision: 3e-5 m at 300 m.
+        self.assertLess(abs(one.dataset.ReadAsArray() - other.dataset.ReadAsArray()).max(), 3e-5)
 
     def test_table_gaps_and_flats(self):
         path = self.folder / "flat.tif"

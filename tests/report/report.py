@@ -27,7 +27,8 @@ from talus_tools.errors import UserError
 from talus_tools.esri import read_grid
 from talus_tools.parameters import Defaults, read_parameters
 from talus_tools.report.film import entries, painted, palette_image, rasters
-from talus_tools.report.places import routes_of, stations_of
+from talus_tools.report.on_map import stations_of
+from talus_tools.report.places import routes_of
 from talus_tools.report.run import Run
 from talus_tools.report.sections.bands import Layer
 from talus_tools.report.sections.cut import cut_points, cut_surface

@@ -5,16 +5,21 @@ Usage: tsunami.py TALUS ROOT FOLDER [SUITE]
 """
 
 import math
+import runpy
+import sys
+from types import SimpleNamespace
+from unittest import mock
 
 import numpy
 from osgeo import gdal
 
 from tools_case import Case, main
 
+from talus_tools import gis
 from talus_tools.errors import UserError
 from talus_tools.plan import Cells
 from talus_tools.results import read
-from talus_tools.tsunami.degrees import on_degrees, transformation
+from talus_tools.tsunami.degrees import heights_on_degrees, on_degrees, transformation
 from talus_tools.tsunami.motion import Motion
 from talus_tools.tsunami.write import write_netcdf
 
@@ -179,6 +184,73 @@ class Series(Case):
             folder = self.run_folder(rows)
             self.assertEqual(self.tool("talus-tsunami", folder).returncode, 0)
             self.assertIn("1 mt\n", (folder / "tsunami-source.tt3").read_text())
+
+    def floor(self, folder):
+        """Maps of a sea floor that falls by 1 m per metre to the east, with soil in the west."""
+        (folder / "maps").mkdir(exist_ok=True)
+        head = "ncols 3\nnrows 2\nxllcorner 100\nyllcorner 200\ndx 2\ndy 1\nnodata_value -9999\n"
+        (folder / "maps" / "ground.asc").write_text(head + "-14 -15 -17\n" * 2)
+        (folder / "maps" / "thickness-at-start.asc").write_text(head + "1 -9999 -9999\n" * 2)
+        with (folder / "parameters.prm").open("a") as file:
+            file.write("subsection Stations\n set Points = cable: 3, 1 | buoy: 4.5, 0.5\nend\n"
+                       "subsection Grid\n set Origin = 100, 202, 0\nend\n")
+
+    def set_by(self, folder):
+        """What setrun.py sets. Clawpack is not at hand; in its place stand objects that take every
+        attribute, and have lists for the pairs that Clawpack has."""
+        pairs = {name: [0, 0] for name in ("lower", "upper", "num_cells", "bc_lower", "bc_upper")}
+        data = SimpleNamespace(ClawRunData=lambda package, dim: SimpleNamespace(
+            clawdata=SimpleNamespace(**pairs), amrdata=SimpleNamespace(),
+            geo_data=SimpleNamespace(), refinement_data=SimpleNamespace(),
+            topo_data=SimpleNamespace(topofiles=[]), dtopo_data=SimpleNamespace(dtopofiles=[]),
+            qinit_data=SimpleNamespace(), gaugedata=SimpleNamespace(gauges=[])))
+        modules = {"clawpack": SimpleNamespace(), "clawpack.clawutil": SimpleNamespace(data=data)}
+        with mock.patch.dict(sys.modules, modules):
+            return runpy.run_path(str(folder / "setrun.py"))["setrun"]()
+
+    def test_geoclaw(self):
+        """The topography is the ground and the soil on it, at the centres of the cells; the domain
+        lies within, and stations are gauges."""
+        folder = self.run_folder([*self.ROWS, ""])
+        self.floor(folder)
+        result = self.tool("talus-tsunami", folder, "--geoclaw", "--sea-level", "2")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        raster = gis.open_raster(str(folder / "topography.tt3"))
+        self.assertEqual(raster.dataset.ReadAsArray().tolist(), [[-13, -15, -17]] * 2)
+        self.assertEqual(gis.extent(raster), (100, 200, 106, 202))
+        case = self.set_by(folder)
+        self.assertEqual((case.clawdata.lower, case.clawdata.upper), ([101, 200.5], [105, 201.5]))
+        self.assertEqual(case.clawdata.num_cells, [2, 1])
+        self.assertEqual(case.topo_data.topofiles, [[3, "topography.tt3"]])
+        self.assertEqual(case.dtopo_data.dtopofiles, [[3, "tsunami-source.tt3"]])
+        self.assertEqual((case.geo_data.coordinate_system, case.geo_data.sea_level), (1, 2))
+        self.assertEqual([gauge[:3] for gauge in case.gaugedata.gauges],
+                         [[1, 103, 201], [2, 104.5, 201.5]])
+        # Twice the way of 6.32 m at sqrt(9.81 * 19) m/s after the last block, at 2 s.
+        self.assertEqual(case.clawdata.tfinal, 3)
+
+    def test_geoclaw_in_degrees(self):
+        """Linear interpolation of a plane is exact; outside, the plane ends level."""
+        x, y = numpy.meshgrid(*(numpy.arange(3) * 100. + c for c in (5e5, 6.5e6)))
+        cells = Cells(5e5 - 50, 6.5e6 - 50, 100., 100., 3, 3)
+        degrees = on_degrees(Motion(cells, 0., 1., 1, lambda k: 0 * x), "EPSG:32633").cells
+        heights = heights_on_degrees(cells, (0.1 * x - 0.2 * y)[::-1], degrees, "EPSG:32633")
+        places = transformation("EPSG:32633", is_inverse=True)(
+            numpy.stack(numpy.meshgrid(degrees.x(), degrees.y()), axis=-1).reshape(-1, 2))
+        exact = (0.1 * places[:, 0].clip(5e5, 5e5 + 200)
+                 - 0.2 * places[:, 1].clip(6.5e6, 6.5e6 + 200)).reshape(heights.shape)
+        self.assertLess(abs(heights - exact).max(), 1e-6)
+
+    def test_geoclaw_refused(self):
+        folder = self.run_folder([*self.ROWS, ""], "dry")
+        self.assert_sentence(self.tool("talus-tsunami", folder, "--geoclaw"),
+                             "has no map 'maps/ground.asc'", "Maps/Write")
+        self.floor(folder)
+        self.assert_sentence(self.tool("talus-tsunami", folder, "--geoclaw", "--sea-level", "-20"),
+                             "at -15 m and higher", "--sea-level")
+        ground = folder / "maps" / "ground.asc"
+        ground.write_text(ground.read_text().replace("-17", "-9999"))
+        self.assert_sentence(self.tool("talus-tsunami", folder, "--geoclaw"), "2 cells without")
 
     def test_refused(self):
         folder = self.run_folder([*self.ROWS, ""])

@@ -81,12 +81,13 @@ def geoclaw_as_esri_grid(path):
     try:
         with open(path, "rb") as stream:
             for line in stream:
-                words = line.split() if len(line) < 200 else []
-                if len(words) != 2 or not words[1][:1].isalpha():
+                *numbers, keyword = line.split() if len(line) < 200 else [b""]
+                if not numbers or not keyword[:1].isalpha():
                     break
-                float(words[0])
-                keyword = words[1].lower()
-                head.append(GEOCLAW.get(keyword, keyword) + b" " + words[0] + b"\n")
+                [float(number) for number in numbers]
+                keywords = ([GEOCLAW.get(keyword.lower(), keyword.lower())] if len(numbers) == 1
+                            else [b"dx", b"dy"])
+                head += [key + b" " + number + b"\n" for key, number in zip(keywords, numbers)]
             return b"".join([*head, line, stream.read()]) if head else None
     except (OSError, ValueError):
         return None

@@ -156,7 +156,7 @@ namespace raster_test
       "2000\r\nxllcorner +1000\r\n\r\n" +
         rows() + "\r\n",
       // GeoClaw's topography of type 3.
-      "  4  mx\n  3  my\n1.1e3 xlower\n2050. ylower\n200 dx\n100 dy\n"
+      "  4  mx\n  3  my\n1.1e3 xlower\n2050. ylower\n200 1e2 cellsize\n"
       "-9999 nodata_value\n" +
         rows("  "),
     };

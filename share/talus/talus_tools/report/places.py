@@ -8,32 +8,13 @@ import numpy
 from matplotlib import patheffects
 from matplotlib.collections import PolyCollection
 
-from talus_tools.parameters import numbers
-from talus_tools.report.on_map import on_map
+from talus_tools.report.on_map import on_map, stations_of
 from talus_tools.report.way import corners_of
 from talus_tools.tables import read_lines
 
 RELEASE, ROUTE, STRUCTURE, WAY = "#c8442b", "#7a1fa2", "#111111", "#3c464e"
 # White around letters and lines, so that they can be read on any colour.
 HALO = [patheffects.withStroke(linewidth=2.2, foreground="white")]
-
-
-def station_names(run):
-    """Names of the stations."""
-    return [name.strip() for name, colon, _ in
-            (part.partition(":") for part in run.entries.get("Stations/Points", "").split("|"))
-            if colon]
-
-
-def stations_of(run):
-    """{name: (easting, northing)} of 'Stations/Points'; what is no place is left out."""
-    result, is_on_map = {}, run.entries.get("Stations/Coordinates", "mesh") == "map"
-    for part in run.entries.get("Stations/Points", "").split("|"):
-        name, _, place = part.partition(":")
-        values = numbers(place) if place.strip() else None
-        if values and len(values) == 2:
-            result[name.strip()] = numpy.array(values) if is_on_map else on_map(run, *values)
-    return result
 
 
 def routes_of(run):

@@ -2,9 +2,12 @@
 """The command line of talus-tsunami."""
 
 import os
+from types import SimpleNamespace
 
 from talus_tools.errors import Parser, UserError, positive
+from talus_tools.report.on_map import stations_of
 from talus_tools.results import Results
+from talus_tools.tsunami.geoclaw import sea_floor, write_geoclaw
 from talus_tools.tsunami.motion import blocks_of, motion_of
 from talus_tools.tsunami.write import rows_of_table, write_dtopo, write_netcdf, write_table
 
@@ -30,6 +33,10 @@ def options_of_user():
     parser.add_argument("--degrees", action="store_true",
                         help="longitude and latitude in WGS 84 in place of the map in metres")
     parser.add_argument("--netcdf", action="store_true", help="write tsunami-source.nc, too")
+    parser.add_argument("--geoclaw", action="store_true", help="3-D only: write topography.tt3, the "
+                        "sea floor before the slide, and setrun.py, a case of GeoClaw, too")
+    parser.add_argument("--sea-level", type=float, default=0, metavar="M",
+                        help="with --geoclaw: sea level on the vertical axis of the map [m]")
     parser.add_argument("--output", metavar="FOLDER", help="folder of the files, instead of DIR")
     return parser.parse_args()
 
@@ -43,12 +50,18 @@ def main():
     options.gravity = float(results.parameters["Gravity/Magnitude"])
     blocks = blocks_of(series, options.interval)
     motion = motion_of(series, blocks, options)
+    if series.dim == 2 and (options.degrees or options.geoclaw):
+        raise UserError("A 2-D section has no place on a map, so it has no degrees and no sea floor "
+                        "around the slide. Leave out --degrees and --geoclaw.")
+    heights = sea_floor(results, series.cells) if options.geoclaw else None
+    gauges = stations_of(SimpleNamespace(entries=results.parameters)) if options.geoclaw else {}
     if options.degrees:
-        if series.dim == 2:
-            raise UserError("A 2-D section has no place on a map, so it has no degrees. Leave out "
-                            "--degrees.")
-        from talus_tools.tsunami.degrees import on_degrees
+        from talus_tools.tsunami.degrees import heights_on_degrees, on_degrees, transformation
         motion = on_degrees(motion, series.map)
+        if options.geoclaw:
+            heights = heights_on_degrees(series.cells, heights, motion.cells, series.map)
+            gauges = {name: transformation(series.map)([place])[0]
+                      for name, place in gauges.items()}
     folder = options.output or results.folder
     try:
         os.makedirs(folder, exist_ok=True)
@@ -58,12 +71,14 @@ def main():
     write_dtopo(source + ".tt3", motion)
     if options.netcdf:
         write_netcdf(source + ".nc", motion)
+    if options.geoclaw:
+        write_geoclaw(folder, motion, heights, gauges, options)
     write_table(source + ".csv", rows_of_table(series, blocks, options, options.width or 1))
     if 0 < options.start_time < options.interval:
         print(f"Remark: --start-time is {options.start_time:g} s, where at least one interval of "
               f"{options.interval:g} s is expected: an earlier motion counts as topography of the "
               "start.")
     print(f"See {source}.tt3" + (", .nc" if options.netcdf else "")
-          + f" and .csv: {motion.n_blocks} blocks from t = {motion.start_time:g} s, each "
+          + (", setrun.py" if options.geoclaw else "") + f" and .csv: {motion.n_blocks} blocks from t = {motion.start_time:g} s, each "
           f"{motion.interval:g} s.")
     return 0

@@ -80,16 +80,29 @@ def interpolated(cells, values, places):
     return result
 
 
+def centres_on_map(cells, words):
+    """Places on the map, shape (n, 2) [m], of the centres of cells in degrees."""
+    degrees = grid_of(whole_turns(cells.x(), 0), cells.y())
+    return transformation(words, is_inverse=True)(degrees)
+
+
 def on_degrees(motion, words):
     """The motion on degrees, from a map with the coordinate system `words`. The volume stays up to
     the error of interpolation. Longitudes continue beyond 180 degrees where the cells lie on both
     sides."""
     cells = frame(motion.cells, transformation(words))
-    degrees = grid_of(whole_turns(cells.x(), 0), cells.y())
-    places = transformation(words, is_inverse=True)(degrees)
+    places = centres_on_map(cells, words)
 
     def change(k):
         return interpolated(motion.cells, motion.change(k), places).reshape(cells.rows,
                                                                             cells.columns)
 
     return dataclasses.replace(motion, cells=cells, change=change, in_degrees=True)
+
+
+def heights_on_degrees(cells, heights, degrees, words):
+    """Heights on `cells` of the map, on cells in degrees; outside, those of the nearest edge."""
+    places = centres_on_map(degrees, words)
+    for i, centres in enumerate((cells.x(), cells.y())):
+        places[:, i] = places[:, i].clip(centres.min(), centres.max())
+    return interpolated(cells, heights, places).reshape(degrees.rows, degrees.columns)

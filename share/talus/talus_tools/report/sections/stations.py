@@ -4,7 +4,7 @@
 import numpy
 
 from talus_tools.report.page import COLORS, Cell, Lines, Rows, Section, embed, subplots
-from talus_tools.report.places import station_names
+from talus_tools.report.on_map import station_names
 from talus_tools.units import show, unit_of
 
 TIME, THICKNESS = "time [s]", " thickness [m]"
