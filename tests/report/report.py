@@ -664,10 +664,12 @@ class Others(Case):
 
     def draw(self, *arguments):
         """What pvpython says on a display of its own. The display's key is in the folder of the
-        test, since xvfb-run fails where something else tidies up the system's temporary folder."""
-        return subprocess.run(["xvfb-run", "-a", "--auth-file", self.folder / "Xauthority",
-                               "pvpython", *arguments], capture_output=True, text=True,
-                              timeout=200, cwd=self.folder, check=False)
+        test, since xvfb-run fails where something else tidies up the system's temporary folder.
+        Two xvfb-run at once may choose the same display unless they begin with different ones."""
+        return subprocess.run(["xvfb-run", "-a", "-n", str(100 + os.getpid() % 30000),
+                               "--auth-file", self.folder / "Xauthority", "pvpython", *arguments],
+                              capture_output=True, text=True, timeout=200, cwd=self.folder,
+                              check=False)
 
     @unittest.skipUnless(shutil.which("pvpython") and shutil.which("xvfb-run"), "SKIPPED: pvpython "
                          "or xvfb-run was not found, so ParaView has not drawn a run")
