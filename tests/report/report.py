@@ -665,9 +665,11 @@ class Others(Case):
     def draw(self, *arguments):
         """What pvpython says on a display of its own. The display's key is in the folder of the
         test, since xvfb-run fails where something else tidies up the system's temporary folder.
-        Two xvfb-run at once may choose the same display unless they begin with different ones."""
-        return subprocess.run(["xvfb-run", "-a", "-n", str(100 + os.getpid() % 30000),
-                               "--auth-file", self.folder / "Xauthority", "pvpython", *arguments],
+        Without -noreset the server starts anew whenever its last window is closed, and may refuse
+        the next one."""
+        return subprocess.run(["xvfb-run", "-n", str(100 + os.getpid() % 30000), "-a",
+                               "-s", "-screen 0 1280x1024x24 -noreset", "--auth-file",
+                               self.folder / "Xauthority", "pvpython", *arguments],
                               capture_output=True, text=True, timeout=200, cwd=self.folder,
                               check=False)
 
