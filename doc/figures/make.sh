@@ -60,6 +60,23 @@ run safety-landslide prm/landslide-trigger.prm --set "Stages=$static" \
     --set "Output/Boxes as cells=false" \
     --set "Strength reduction/First factor=3.7"
 
+run syrup prm/validation/syrup-dam-break.prm
+run syrup-channel prm/validation/syrup-channel.prm
+run beads prm/validation/bead-dam-break.prm
+run spreading prm/validation/viscous-spreading.prm
+strength='Undrained shear strength'
+for stress in 0.05 0.10 0.20; do # over rho g H = 1471.5 Pa
+  for base in fixed roller; do
+    run cylinder-$base-$stress prm/validation/cylinder-slump.prm \
+        --set "Boundaries/Bottom=$base" \
+        --set "Materials/clay/$strength=$(echo "$stress * 1471.5" | bc)"
+  done
+done
+for stress in 500 1000 1500; do
+  run cone-$stress prm/validation/abrams-cone.prm \
+      --set "Materials/concrete/$strength=$stress"
+done
+
 draw() {
   script=$1
   shift
@@ -78,6 +95,7 @@ draw slab_failure $here/slab-failure.png $scratch/slab-failure
 draw slope $here/slope.png $scratch/slope-3d $scratch/slope
 draw pipe_flow $here/pipe-flow.png \
           $scratch/pipe-0=smooth $scratch/pipe-1e3=rough
+draw validation $here/validation.png $scratch
 draw toe $here/toe.png $scratch/landslide-unsplit \
           $scratch/landslide
 draw mechanism $here/mechanism.png \

@@ -64,6 +64,13 @@ PAGES = [
          ["LandslideInclined", "LandslideInclined3d", "LandslideInclinedFull",
           "LandslideInclinedFine"]),
     ]),
+    ("laboratory", "Laboratory experiments", [
+        ("Dam breaks", ["SyrupDamBreak", "SyrupDamBreakFine", "SyrupChannel",
+                        "BeadDamBreak", "BeadDamBreakFine"]),
+        ("Spreading and slumps",
+         ["ViscousSpreading", "ViscousSpreadingFine", "CylinderSlump",
+          "CylinderSlumpFine", "AbramsCone", "AbramsConeFine"]),
+    ]),
 ]
 
 # Kinds of evidence: name, heading of the column of the matrix, explanation.
