@@ -96,6 +96,11 @@ draw slope $here/slope.png $scratch/slope-3d $scratch/slope
 draw pipe_flow $here/pipe-flow.png \
           $scratch/pipe-0=smooth $scratch/pipe-1e3=rough
 draw validation $here/validation.png $scratch
+for tool in study calibrate; do
+  share/talus/talus-$tool prm/validation/gypsum-study.prm --program "$talus" \
+      --output "$scratch/gypsum-study"
+done
+cp "$scratch/gypsum-study/calibration.png" $here/gypsum-calibration.png
 draw toe $here/toe.png $scratch/landslide-unsplit \
           $scratch/landslide
 draw mechanism $here/mechanism.png \

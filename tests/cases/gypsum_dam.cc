@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A Bingham fluid runs out on a base that holds it, gypsum-dam.prm, and comes
+// A Bingham fluid runs out on a base that holds it, validation/gypsum-tailings.prm, and comes
 // to rest. Its soil is sheared by the thousand: with a deformation gradient
 // that only grows, det F of a point is round-off after 55 s (h = 1 m) and the
 // run ends.
@@ -32,7 +32,7 @@ namespace
   expect_rest(const std::string &cell_size)
   {
     const Table table =
-      run<2>("gypsum-dam.prm",
+      run<2>("validation/gypsum-tailings.prm",
              "gypsum-dam-" + cell_size,
              {"Grid/Cell size=" + cell_size, "End when at rest=false"});
     const auto  &energy  = table["grid kinetic energy [J]"];

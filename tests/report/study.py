@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 import time
+from types import SimpleNamespace
 
 import numpy
 
@@ -19,6 +20,7 @@ from talus_tools.errors import UserError
 from talus_tools.study.design import design, quantile
 from talus_tools.study.ensemble import lock, make_members, program_version
 from talus_tools.study.member import written
+from talus_tools.study.quantities import Quantity
 from talus_tools.study.settings import ENTRIES, Settings
 
 # The first slope on cells of 2 m: half a second.
@@ -222,6 +224,16 @@ class Members(StudyCase):
                   if row["quantity"] == "most [m]"]
         self.assertEqual(shares, [("9.0", "1.0"), ("9.0", "1.0"), ("20.0", repr(1 - 2 / 3))])
         self.assertTrue((self.output(study) / "study.png").exists())
+
+    def test_settling_time(self):
+        """A front that approaches its place as 1 - exp(-t) is within 2 % from t = ln 50 on."""
+        times = [0.01 * i for i in range(3001)]
+        (self.folder / "statistics.csv").write_text("time [s],front x [m]\n" + "".join(
+            f"{t!r},{5 - 3 * math.exp(-t)!r}\n" for t in times))
+        quantity = Quantity("time", "statistics.csv", "front x [m]", "settling time")
+        value = quantity.value(SimpleNamespace(path=lambda name: self.folder / name))
+        self.assertEqual(quantity.label(), "time [s]")
+        self.assertLess(abs(value - math.log(50)), 0.01)
 
     def test_list_member_collect(self):
         study = self.grid("array", "5, 20")

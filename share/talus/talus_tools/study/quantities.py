@@ -22,7 +22,9 @@ class Quantity:
     take: str
 
     def label(self):
-        """Name with the unit of the column."""
+        """Name with the unit of the column, of a settling time s."""
+        if self.take == "settling time":
+            return self.name + " [s]"
         unit = re.search(r" \[.*\]$", self.column)
         return self.name + (unit[0] if unit else "")
 
@@ -48,9 +50,14 @@ class Quantity:
 
     def value(self, member):
         """The number of a finished member."""
-        column = read_table(member.path(self.file))[self.column]
+        table = read_table(member.path(self.file))
+        column = table[self.column]
         if self.take == "final":
             return float(column[-1])
+        if self.take == "settling time":
+            distance = abs(column - column[-1])
+            outside = numpy.flatnonzero(distance > 0.02 * distance[0])
+            return float(table["time [s]"][outside[-1] + 1 if len(outside) else 0])
         return float(numpy.nanmax(column) if self.take == "maximum" else numpy.nanmin(column))
 
 

@@ -40,7 +40,7 @@ TABLES = ("statistics.csv", "profile.csv", "obstacles.csv", "boundaries.csv", "n
           "maps.csv", "stations.csv", "runout.csv", "bands.csv")
 # File and column of a quantity that names neither: right for any direction of the slide.
 RUNOUT = ("runout.csv", "runout [m]")
-TAKES = ("final", "maximum", "minimum")
+TAKES = ("final", "maximum", "minimum", "settling time")
 KINDS = ("Latin hypercube", "grid")
 # Numbers that each distribution needs, all in the unit of the parameter.
 DISTRIBUTIONS = {"uniform": ("Lower", "Upper"), "normal": ("Mean", "Standard deviation"),
