@@ -5,6 +5,10 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace talus
 {
   using namespace dealii;
@@ -12,6 +16,13 @@ namespace talus
   // Share of the points that is told: a few points among thousands of
   // neighbours leave no gap.
   constexpr double told_share = 1e-3;
+
+  // Square of speed over wave speed, the compression by an impact, at which
+  // the soil is soft: the limit for the weight in source/problem/stiffness.cc.
+  constexpr double told_compression = 0.1;
+
+  // Nodes of less than a tenth of a cell of soil may be much faster than soil.
+  constexpr double mass_over_cutoff = 1e8;
 
 
 
@@ -101,8 +112,48 @@ namespace talus
 
 
 
+  template <int dim>
+  Remark
+  remark_on_speed(const State<dim> &state, const Materials<dim> &materials)
+  {
+    const Points<dim> &points = state.points;
+    double speed = 0., wave_speed = std::numeric_limits<double>::infinity();
+    for (const unsigned int node : state.nodes.active_nodes())
+      if (state.nodes.mass(node) >
+          mass_over_cutoff * state.constants.mass_cutoff)
+        speed = std::max(speed, state.nodes.velocity(node).norm());
+    for (unsigned int p = 0; p < points.size(); ++p)
+      if (const auto &law = materials.of_body(points.data(points.body)[p]);
+          law.has_strength())
+        wave_speed = std::min(wave_speed, law.wave_speed(points, p));
+    speed      = Utilities::MPI::max(speed, state.communicator());
+    wave_speed = Utilities::MPI::min(wave_speed, state.communicator());
+    const double compression = std::pow(speed / wave_speed, 2);
+    if (compression <= told_compression)
+      return "";
+    return text(std::setprecision(3),
+                "At t = ",
+                state.time,
+                " s the soil is too soft for its speed of ",
+                speed,
+                " m/s: waves travel at ",
+                wave_speed,
+                " m/s, and impacts compress the soil by (v/c)^2 = ",
+                compression,
+                ", where at most ",
+                told_compression,
+                " was expected. Make `Young's modulus` ",
+                compression / told_compression,
+                " times larger.");
+  }
+
+
+
   template class RunRemarks<2>;
   template class RunRemarks<3>;
+
+  template decltype(remark_on_speed<2>) remark_on_speed<2>;
+  template decltype(remark_on_speed<3>) remark_on_speed<3>;
 
   template decltype(remark_on_split_limits<2>) remark_on_split_limits<2>;
   template decltype(remark_on_split_limits<3>) remark_on_split_limits<3>;
