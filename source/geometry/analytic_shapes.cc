@@ -203,6 +203,99 @@ namespace talus
 
 
 
+  Tensor<1, 3>
+  perpendicular(const Tensor<1, 3> &direction)
+  {
+    unsigned int flattest = 0;
+    for (unsigned int d = 1; d < 3; ++d)
+      if (std::abs(direction[d]) < std::abs(direction[flattest]))
+        flattest = d;
+    const Tensor<1, 3> result =
+      cross_product_3d(direction, Point<3>::unit_vector(flattest));
+    return result / result.norm();
+  }
+
+
+
+  namespace
+  {
+    /// Return the corners of the section of a frustum: of a tube on one side of
+    /// the axis, otherwise on both sides, so that the axis is no edge.
+    std::vector<Point<2>>
+    section_of_frustum(const double length,
+                       const double radius,
+                       const double end_radius,
+                       const double inner_radius)
+    {
+      const bool is_tube = inner_radius > 0.;
+      return {Point<2>(is_tube ? inner_radius : -radius, 0.),
+              Point<2>(radius, 0.),
+              Point<2>(end_radius, length),
+              Point<2>(is_tube ? inner_radius : -end_radius, length)};
+    }
+  } // namespace
+
+
+
+  // The surface nearest to a place lies in the half plane of the place and the
+  // axis, so the distance is the distance from the section.
+  Frustum::Frustum(const Point<3> &from,
+                   const Point<3> &to,
+                   const double    radius,
+                   const double    end_radius,
+                   const double    inner_radius)
+    : from_(from)
+    , to_(to)
+    , along_((to - from) / to.distance(from))
+    , radius_(radius)
+    , end_radius_(end_radius)
+    , profile_(
+        "The section of the frustum",
+        section_of_frustum(to.distance(from), radius, end_radius, inner_radius))
+  {}
+
+
+
+  Point<2>
+  Frustum::in_profile(const Point<3> &x) const
+  {
+    const double s = (x - from_) * along_;
+    return {(x - from_ - s * along_).norm(), s};
+  }
+
+
+
+  /// On the axis any direction across the axis is valid.
+  Tensor<1, 3>
+  Frustum::normal(const Point<3> &x) const
+  {
+    const Point<2>     place  = in_profile(x);
+    const Tensor<1, 2> n      = profile_.normal(place);
+    const Tensor<1, 3> across = x - from_ - place[1] * along_;
+    return n[0] * (place[0] > 0. ? across / place[0] : perpendicular(along_)) +
+           n[1] * along_;
+  }
+
+
+
+  /// A disc reaches along an axis as far as the sine of the angle to its own.
+  Box<3>
+  Frustum::bounding_box() const
+  {
+    Box<3> box;
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        const double sine = std::sqrt(std::max(0., 1. - along_[d] * along_[d]));
+        box.lower[d] =
+          std::min(from_[d] - radius_ * sine, to_[d] - end_radius_ * sine);
+        box.upper[d] =
+          std::max(from_[d] + radius_ * sine, to_[d] + end_radius_ * sine);
+      }
+    return box;
+  }
+
+
+
   template class HalfSpace<2>;
   template class HalfSpace<3>;
   template class BoxRegion<2>;

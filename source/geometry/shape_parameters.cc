@@ -28,14 +28,16 @@ namespace talus
       "Must be given: 'polygon' (see Vertices, Open; in 3-D a prism over it), "
       "'box' (see Lower corner, Upper corner), 'ball' (a disc in "
       "2-D; see Centre, Radius, Inner radius), 'cylinder' (along "
-      "z; in 2-D the same as ball), 'pipe' (along a line in plan; see Route, "
+      "z, in 2-D the same as ball; or along Axis), 'cone' (in 3-D, with or "
+      "without the tip; see Axis, Radius, End radius), 'pipe' (along a line in "
+      "plan; see Route, "
       "Height of axis, Radius), 'half-plane' (in 3-D a half "
       "of space; see Point, Normal), 'terrain' (all below a "
       "surface; see Surface) or 'layer' (between two surfaces; see "
       "Upper surface, Lower surface).",
       this->prm,
       Patterns::Selection(
-        "|polygon|box|ball|cylinder|pipe|half-plane|terrain|layer"));
+        "|polygon|box|ball|cylinder|cone|pipe|half-plane|terrain|layer"));
     add_parameter("Coordinates",
                   coordinates_,
                   "'map', in 2-D only for the route of a pipe: all places of "
@@ -80,9 +82,19 @@ namespace talus
                   "[m].");
     add_parameter("Radius",
                   radius_,
-                  "Radius of the ball, cylinder or pipe [m].",
+                  "Radius of the ball, cylinder or pipe, of the cone at the "
+                  "beginning of its axis [m].",
                   this->prm,
                   Patterns::Double(1e-12));
+    add_parameter("Axis",
+                  axis_,
+                  "3-D only: both ends of the axis of a cylinder or cone, as "
+                  "x,y,z; x,y,z [m]. Empty: the cylinder lies along z.");
+    add_parameter("End radius",
+                  end_radius_,
+                  "Radius of the cone at the end of its axis, 0 for a tip [m].",
+                  this->prm,
+                  Patterns::Double(0.));
     add_parameter("Inner radius",
                   inner_radius_,
                   "Radius of the hollow in the ball or cylinder, for a ring "
@@ -188,16 +200,17 @@ namespace talus
     // Also reached for a listed section that is missing.
     AssertThrow(
       !shape_.empty(),
-      ExcUser(text(path("Shape"),
-                   " is not given, but 'polygon', 'box', 'ball', 'cylinder', "
-                   "'pipe', 'half-plane', 'terrain' or 'layer' is expected "
-                   "there. Add the entry and the further entries of the shape "
-                   "to the section '",
-                   section_.substr(1),
-                   "', or the whole section, or remove the name "
-                   "from '",
-                   section_.substr(1, section_.rfind('/') - 1),
-                   "/Names'.")));
+      ExcUser(
+        text(path("Shape"),
+             " is not given, but 'polygon', 'box', 'ball', 'cylinder', "
+             "'cone', 'pipe', 'half-plane', 'terrain' or 'layer' is expected "
+             "there. Add the entry and the further entries of the shape "
+             "to the section '",
+             section_.substr(1),
+             "', or the whole section, or remove the name "
+             "from '",
+             section_.substr(1, section_.rfind('/') - 1),
+             "/Names'.")));
     if (shape_ == "half-plane")
       return make_half_space();
     if (shape_ == "box")
@@ -222,10 +235,41 @@ namespace talus
     const Point<dim> centre = coordinates().in_space(centre_);
     if (shape_ == "ball")
       return std::make_unique<Ball<dim>>(centre, radius_, inner_radius_);
+    if (shape_ == "cone" || !axis_.empty())
+      return make_frustum();
     return make_over(std::make_unique<Ball<2>>(Point<2>(centre[0], centre[1]),
                                                radius_,
                                                inner_radius_),
                      domain);
+  }
+
+
+
+  template <int dim>
+  std::unique_ptr<Shape<dim>>
+  ShapeParameters<dim>::make_frustum() const
+  {
+    AssertThrow(dim == 3 && axis_.size() == 2 && axis_[0] != axis_[1],
+                ExcUser(text(path("Axis"),
+                             " has ",
+                             counted(axis_.size(), "place"),
+                             " in ",
+                             dim,
+                             "-D, but a ",
+                             shape_,
+                             " needs two different places, as x,y,z; x,y,z, "
+                             "in 3-D. Correct the entry; in 2-D use a "
+                             "polygon.")));
+    if constexpr (dim == 3)
+      {
+        const bool is_cone = shape_ == "cone";
+        return std::make_unique<Frustum>(coordinates().in_space(axis_[0]),
+                                         coordinates().in_space(axis_[1]),
+                                         radius_,
+                                         is_cone ? end_radius_ : radius_,
+                                         is_cone ? 0. : inner_radius_);
+      }
+    return nullptr;
   }
 
 

@@ -2,8 +2,9 @@
 #ifndef talus_geometry_analytic_shapes_h
 #define talus_geometry_analytic_shapes_h
 
-#include <talus/geometry/shape.h>
+#include <talus/geometry/polygon.h>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 
@@ -134,6 +135,57 @@ namespace talus
 
     std::unique_ptr<const Shape<2>> base_;
     double                          z_lower_, z_upper_;
+  };
+
+
+
+  /// Return a unit vector at a right angle to @p direction.
+  dealii::Tensor<1, 3>
+  perpendicular(const dealii::Tensor<1, 3> &direction);
+
+
+
+  /// Frustum of a cone with any axis: a cylinder, a cone, or a tube.
+  class Frustum : public Shape<3>
+  {
+  public:
+    /// The axis leads from @p from to @p to, where the radii are @p radius and
+    /// @p end_radius, which may be 0. A tube has the inner radius
+    /// @p inner_radius throughout. All in m.
+    Frustum(const dealii::Point<3> &from,
+            const dealii::Point<3> &to,
+            double                  radius,
+            double                  end_radius,
+            double                  inner_radius = 0.);
+
+    double
+    signed_distance(const dealii::Point<3> &x) const override
+    {
+      return profile_.signed_distance(in_profile(x));
+    }
+
+    dealii::Tensor<1, 3>
+    normal(const dealii::Point<3> &x) const override;
+
+    Box<3>
+    bounding_box() const override;
+
+    double
+    width() const override
+    {
+      return 2. * std::max(radius_, end_radius_);
+    }
+
+  private:
+    /// Distance from the axis and place along the axis, m.
+    dealii::Point<2>
+    in_profile(const dealii::Point<3> &x) const;
+
+    dealii::Point<3>     from_, to_;
+    dealii::Tensor<1, 3> along_; ///< unit vector
+    double               radius_, end_radius_;
+    /// Section through the axis; of solids on both sides of the axis.
+    Polygon profile_;
   };
 
 
