@@ -139,19 +139,32 @@ namespace talus
 
 
   Prism::Prism(std::unique_ptr<const Shape<2>> base,
-               const double                    z_lower,
-               const double                    z_upper)
+               const double                    lower,
+               const double                    upper,
+               const unsigned int              axis)
     : base_(std::move(base))
-    , z_lower_(z_lower)
-    , z_upper_(z_upper)
+    , lower_(lower)
+    , upper_(upper)
+    , axis_(axis)
   {}
 
 
 
-  double
-  Prism::distance_to_ends(const double z) const
+  Point<3>
+  Prism::place(const double first,
+               const double second,
+               const double along) const
   {
-    return std::max(z_lower_ - z, z - z_upper_);
+    return axis_ == 2 ? Point<3>(first, second, along)
+                      : Point<3>(first, along, second);
+  }
+
+
+
+  double
+  Prism::distance_to_ends(const double along) const
+  {
+    return std::max(lower_ - along, along - upper_);
   }
 
 
@@ -160,8 +173,8 @@ namespace talus
   double
   Prism::signed_distance(const Point<3> &x) const
   {
-    const double across = base_->signed_distance(Point<2>(x[0], x[1]));
-    const double along  = distance_to_ends(x[2]);
+    const double across = base_->signed_distance(foot(x));
+    const double along  = distance_to_ends(x[axis_]);
     return across > 0. && along > 0. ? std::hypot(across, along)
                                      : std::max(across, along);
   }
@@ -171,12 +184,12 @@ namespace talus
   Tensor<1, 3>
   Prism::normal(const Point<3> &x) const
   {
-    const Point<2>     foot(x[0], x[1]);
-    const double       across = base_->signed_distance(foot);
-    const double       along  = distance_to_ends(x[2]);
-    const double       sign   = z_lower_ - x[2] > x[2] - z_upper_ ? -1. : 1.;
-    const Tensor<1, 2> n      = base_->normal(foot);
-    const Tensor<1, 3> of_base({n[0], n[1], 0.}), of_end({0., 0., sign});
+    const double       across = base_->signed_distance(foot(x));
+    const double       along  = distance_to_ends(x[axis_]);
+    const double       sign = lower_ - x[axis_] > x[axis_] - upper_ ? -1. : 1.;
+    const Tensor<1, 2> n    = base_->normal(foot(x));
+    const Tensor<1, 3> of_base = place(n[0], n[1], 0.),
+                       of_end  = place(0., 0., sign);
     if (across > 0. && along > 0.)
       return (across * of_base + along * of_end) / std::hypot(across, along);
     return across >= along ? of_base : of_end;
@@ -187,8 +200,7 @@ namespace talus
   bool
   Prism::contains(const Point<3> &x) const
   {
-    return x[2] >= z_lower_ && x[2] <= z_upper_ &&
-           base_->contains(Point<2>(x[0], x[1]));
+    return distance_to_ends(x[axis_]) <= 0. && base_->contains(foot(x));
   }
 
 
@@ -197,8 +209,8 @@ namespace talus
   Prism::bounding_box() const
   {
     const Box<2> base = base_->bounding_box();
-    return {Point<3>(base.lower[0], base.lower[1], z_lower_),
-            Point<3>(base.upper[0], base.upper[1], z_upper_)};
+    return {place(base.lower[0], base.lower[1], lower_),
+            place(base.upper[0], base.upper[1], upper_)};
   }
 
 

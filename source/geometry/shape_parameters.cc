@@ -16,6 +16,26 @@ namespace talus
 {
   using namespace dealii;
 
+  namespace
+  {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    /// Return the prism over @p base, see Prism; in 2-D the base.
+    template <int dim>
+    std::unique_ptr<Shape<dim>>
+    over(std::unique_ptr<Shape<2>>    base,
+         const std::array<double, 2> &ends,
+         const unsigned int           axis = 2)
+    {
+      if constexpr (dim == 2)
+        return base;
+      else
+        return std::make_unique<Prism>(std::move(base), ends[0], ends[1], axis);
+    }
+  } // namespace
+
+
+
   template <int dim>
   ShapeParameters<dim>::ShapeParameters(const std::string &section)
     : ParameterAcceptor(section)
@@ -227,7 +247,7 @@ namespace talus
           base = std::make_unique<OpenPolygon>(name, vertices(false));
         else
           base = std::make_unique<Polygon>(name, vertices(false));
-        return make_over(std::move(base), domain);
+        return over<dim>(std::move(base), extent_z(domain));
       }
     if (is_pipe())
       return pipe_.make(setting_of_pipe());
@@ -237,10 +257,10 @@ namespace talus
       return std::make_unique<Ball<dim>>(centre, radius_, inner_radius_);
     if (shape_ == "cone" || !axis_.empty())
       return make_frustum();
-    return make_over(std::make_unique<Ball<2>>(Point<2>(centre[0], centre[1]),
+    return over<dim>(std::make_unique<Ball<2>>(Point<2>(centre[0], centre[1]),
                                                radius_,
                                                inner_radius_),
-                     domain);
+                     extent_z(domain));
   }
 
 
@@ -364,20 +384,6 @@ namespace talus
 
   template <int dim>
   std::unique_ptr<Shape<dim>>
-  ShapeParameters<dim>::make_over(std::unique_ptr<Shape<2>> base,
-                                  const Box<dim>           &domain) const
-  {
-    const std::array<double, 2> z = extent_z(domain);
-    if constexpr (dim == 2)
-      return base;
-    else
-      return std::make_unique<Prism>(std::move(base), z[0], z[1]);
-  }
-
-
-
-  template <int dim>
-  std::unique_ptr<Shape<dim>>
   ShapeParameters<dim>::make_side(
     const std::string                      &entry,
     const std::string                      &expression,
@@ -400,27 +406,6 @@ namespace talus
 
 
 
-  namespace
-  {
-    std::unique_ptr<Shape<2>>
-    over_outline(std::unique_ptr<Shape<2>> outline,
-                 std::integral_constant<int, 2>)
-    {
-      return outline;
-    }
-
-
-
-    std::unique_ptr<Shape<3>>
-    over_outline(std::unique_ptr<Shape<2>> outline,
-                 std::integral_constant<int, 3>)
-    {
-      return std::make_unique<VerticalPrism>(std::move(outline));
-    }
-  } // namespace
-
-
-
   /// Limits in plan come first: the surfaces may be undefined beyond.
   template <int dim>
   std::unique_ptr<Shape<dim>>
@@ -431,8 +416,8 @@ namespace talus
     if (!(lower_corner_ == upper_corner_))
       {
         Box<dim> box = coordinates().box(lower_corner_, upper_corner_);
-        box.upper[1] = std::numeric_limits<double>::infinity();
-        box.lower[1] = -box.upper[1];
+        box.upper[1] = infinity;
+        box.lower[1] = -infinity;
         for (unsigned int d = 0; d < dim; d += 2)
           AssertThrow(box.lower[d] < box.upper[d],
                       ExcUser(text(path("Upper corner"),
@@ -444,10 +429,11 @@ namespace talus
         parts.push_back(std::make_unique<BoxRegion<dim>>(box));
       }
     if (!vertices_.empty())
-      parts.push_back(
-        over_outline(std::make_unique<Polygon>(
-                       "The vertices in " + path("Vertices"), vertices(true)),
-                     std::integral_constant<int, dim>()));
+      parts.push_back(over<dim>(std::make_unique<Polygon>("The vertices in " +
+                                                            path("Vertices"),
+                                                          vertices(true)),
+                                {{-infinity, infinity}},
+                                1));
     parts.push_back(make_side("Upper surface", upper_surface_, Side::below));
     parts.push_back(make_side("Lower surface", lower_surface_, Side::above));
     auto layer = std::make_unique<Intersection<dim>>(std::move(parts));

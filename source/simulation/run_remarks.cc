@@ -17,9 +17,10 @@ namespace talus
   // neighbours leave no gap.
   constexpr double told_share = 1e-3;
 
-  // Square of speed over wave speed, the compression by an impact, at which
-  // the soil is soft: the limit for the weight in source/problem/stiffness.cc.
-  constexpr double told_compression = 0.1;
+  // Square of speed over wave speed: the pressure of an impact, rho v^2/2, then
+  // compresses soil by a tenth, the limit for the weight in
+  // source/problem/stiffness.cc.
+  constexpr double told_square = 0.2;
 
   // Nodes of less than a tenth of a cell of soil may be much faster than soil.
   constexpr double mass_over_cutoff = 1e8;
@@ -126,24 +127,25 @@ namespace talus
       if (const auto &law = materials.of_body(points.data(points.body)[p]);
           law.has_strength())
         wave_speed = std::min(wave_speed, law.wave_speed(points, p));
-    speed      = Utilities::MPI::max(speed, state.communicator());
-    wave_speed = Utilities::MPI::min(wave_speed, state.communicator());
-    const double compression = std::pow(speed / wave_speed, 2);
-    if (compression <= told_compression)
+    speed               = Utilities::MPI::max(speed, state.communicator());
+    wave_speed          = Utilities::MPI::min(wave_speed, state.communicator());
+    const double square = std::pow(speed / wave_speed, 2);
+    if (square <= told_square)
       return "";
     return text(std::setprecision(3),
                 "At t = ",
                 state.time,
                 " s the soil is too soft for its speed of ",
                 speed,
-                " m/s: waves travel at ",
+                " m/s: with waves of ",
                 wave_speed,
-                " m/s, and impacts compress the soil by (v/c)^2 = ",
-                compression,
+                " m/s, (v/c)^2 is ",
+                square,
                 ", where at most ",
-                told_compression,
-                " was expected. Make `Young's modulus` ",
-                compression / told_compression,
+                told_square,
+                " was expected, and impacts compress the soil. Make `Young's "
+                "modulus` ",
+                square / told_square,
                 " times larger.");
   }
 

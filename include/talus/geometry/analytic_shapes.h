@@ -109,12 +109,17 @@ namespace talus
 
 
 
-  /// Prism along z over a shape in the x-y plane: over a disc, a cylinder.
+  /// Prism over a plane shape: along z over a shape in the x-y plane, or upright
+  /// over an outline in plan, whose first axis is x, the second z.
   class Prism : public Shape<3>
   {
   public:
-    /// From @p z_lower to @p z_upper, m, possibly infinite.
-    Prism(std::unique_ptr<const Shape<2>> base, double z_lower, double z_upper);
+    /// From @p lower to @p upper, m, possibly infinite, along @p axis: 2, or 1
+    /// for upright.
+    Prism(std::unique_ptr<const Shape<2>> base,
+          double                          lower,
+          double                          upper,
+          unsigned int                    axis = 2);
 
     double
     signed_distance(const dealii::Point<3> &x) const override;
@@ -129,12 +134,24 @@ namespace talus
     bounding_box() const override;
 
   private:
+    /// Place in the plane of the base.
+    dealii::Point<2>
+    foot(const dealii::Point<3> &x) const
+    {
+      return {x[0], x[3 - axis_]};
+    }
+
+    /// Place from coordinates in the plane of the base and along the axis.
+    dealii::Point<3>
+    place(double first, double second, double along) const;
+
     /// Distance to the nearer end, m: negative between both ends.
     double
-    distance_to_ends(double z) const;
+    distance_to_ends(double along) const;
 
     std::unique_ptr<const Shape<2>> base_;
-    double                          z_lower_, z_upper_;
+    double                          lower_, upper_;
+    unsigned int                    axis_;
   };
 
 
@@ -186,55 +203,6 @@ namespace talus
     double               radius_, end_radius_;
     /// Section through the axis; of solids on both sides of the axis.
     Polygon profile_;
-  };
-
-
-
-  /// Endless vertical prism above and below an outline in plan.
-  class VerticalPrism : public Shape<3>
-  {
-  public:
-    /// The first axis of @p outline is x, the second z.
-    explicit VerticalPrism(std::unique_ptr<const Shape<2>> outline)
-      : outline_(std::move(outline))
-    {}
-
-    double
-    signed_distance(const dealii::Point<3> &x) const override
-    {
-      return outline_->signed_distance(in_plan(x));
-    }
-
-    dealii::Tensor<1, 3>
-    normal(const dealii::Point<3> &x) const override
-    {
-      const dealii::Tensor<1, 2> n = outline_->normal(in_plan(x));
-      return dealii::Tensor<1, 3>({n[0], 0., n[1]});
-    }
-
-    bool
-    contains(const dealii::Point<3> &x) const override
-    {
-      return outline_->contains(in_plan(x));
-    }
-
-    Box<3>
-    bounding_box() const override
-    {
-      constexpr double infinity = std::numeric_limits<double>::infinity();
-      const Box<2>     box      = outline_->bounding_box();
-      return {dealii::Point<3>(box.lower[0], -infinity, box.lower[1]),
-              dealii::Point<3>(box.upper[0], infinity, box.upper[1])};
-    }
-
-  private:
-    static dealii::Point<2>
-    in_plan(const dealii::Point<3> &x)
-    {
-      return {x[0], x[2]};
-    }
-
-    std::unique_ptr<const Shape<2>> outline_;
   };
 } // namespace talus
 

@@ -93,8 +93,6 @@ namespace talus
     std::unique_ptr<Shape<dim>>
     make_frustum() const;
     std::unique_ptr<Shape<dim>>
-    make_over(std::unique_ptr<Shape<2>> base, const Box<dim> &domain) const;
-    std::unique_ptr<Shape<dim>>
     make_side(const std::string                &entry,
               const std::string                &expression,
               typename SideOfSurface<dim>::Side side) const;

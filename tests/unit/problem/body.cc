@@ -162,25 +162,6 @@ namespace
 
 
 
-  // The boxes of the points that do not agree with the disc lie within half a
-  // diagonal of its edge.
-  TEST(Bodies, DiscAndRing)
-  {
-    constexpr double pi   = dealii::numbers::PI;
-    const auto       area = [](const std::string &inner) {
-      WithBodies<2> all({"set Shape = ball\nset Centre = 2, 2\n"
-                               "set Radius = 1.5\nset Inner radius = " +
-                         inner + "\nset Points per cell and axis = 16"});
-      all.create();
-      return all.sum(all.points.reference_volume);
-    };
-    const double band = 2. * pi * std::sqrt(2.) / 16.;
-    EXPECT_NEAR(area("0"), pi * 2.25, 1.5 * band);
-    EXPECT_NEAR(area("1"), pi * 1.25, 2.5 * band);
-  }
-
-
-
   TEST(Bodies, PrismFillsTheMeshOrItsExtent)
   {
     const std::string square = polygon("0,0; 1,0; 1,1; 0,1");
