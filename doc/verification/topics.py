@@ -25,7 +25,7 @@ PAGES = [
         ("Vertical cut", ["VerticalCut", "VerticalCutBracket"]),
     ]),
     ("contact", "Seabed, obstacles and water", [
-        ("Seabed", ["Block"]),
+        ("Seabed", ["Block", "Channel"]),
         ("Thin layers", ["ThinLayers"]),
         ("Obstacles", ["BlockOnPlane", "Arc", "Container", "Bowl",
                        "Symmetry", "RollingDisc"]),

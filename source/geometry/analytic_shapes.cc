@@ -139,19 +139,32 @@ namespace talus
 
 
   Prism::Prism(std::unique_ptr<const Shape<2>> base,
-               const double                    z_lower,
-               const double                    z_upper)
+               const double                    lower,
+               const double                    upper,
+               const unsigned int              axis)
     : base_(std::move(base))
-    , z_lower_(z_lower)
-    , z_upper_(z_upper)
+    , lower_(lower)
+    , upper_(upper)
+    , axis_(axis)
   {}
 
 
 
-  double
-  Prism::distance_to_ends(const double z) const
+  Point<3>
+  Prism::place(const double first,
+               const double second,
+               const double along) const
   {
-    return std::max(z_lower_ - z, z - z_upper_);
+    return axis_ == 2 ? Point<3>(first, second, along)
+                      : Point<3>(first, along, second);
+  }
+
+
+
+  double
+  Prism::distance_to_ends(const double along) const
+  {
+    return std::max(lower_ - along, along - upper_);
   }
 
 
@@ -160,8 +173,8 @@ namespace talus
   double
   Prism::signed_distance(const Point<3> &x) const
   {
-    const double across = base_->signed_distance(Point<2>(x[0], x[1]));
-    const double along  = distance_to_ends(x[2]);
+    const double across = base_->signed_distance(foot(x));
+    const double along  = distance_to_ends(x[axis_]);
     return across > 0. && along > 0. ? std::hypot(across, along)
                                      : std::max(across, along);
   }
@@ -171,12 +184,12 @@ namespace talus
   Tensor<1, 3>
   Prism::normal(const Point<3> &x) const
   {
-    const Point<2>     foot(x[0], x[1]);
-    const double       across = base_->signed_distance(foot);
-    const double       along  = distance_to_ends(x[2]);
-    const double       sign   = z_lower_ - x[2] > x[2] - z_upper_ ? -1. : 1.;
-    const Tensor<1, 2> n      = base_->normal(foot);
-    const Tensor<1, 3> of_base({n[0], n[1], 0.}), of_end({0., 0., sign});
+    const double       across = base_->signed_distance(foot(x));
+    const double       along  = distance_to_ends(x[axis_]);
+    const double       sign = lower_ - x[axis_] > x[axis_] - upper_ ? -1. : 1.;
+    const Tensor<1, 2> n    = base_->normal(foot(x));
+    const Tensor<1, 3> of_base = place(n[0], n[1], 0.),
+                       of_end  = place(0., 0., sign);
     if (across > 0. && along > 0.)
       return (across * of_base + along * of_end) / std::hypot(across, along);
     return across >= along ? of_base : of_end;
@@ -187,8 +200,7 @@ namespace talus
   bool
   Prism::contains(const Point<3> &x) const
   {
-    return x[2] >= z_lower_ && x[2] <= z_upper_ &&
-           base_->contains(Point<2>(x[0], x[1]));
+    return distance_to_ends(x[axis_]) <= 0. && base_->contains(foot(x));
   }
 
 
@@ -197,8 +209,101 @@ namespace talus
   Prism::bounding_box() const
   {
     const Box<2> base = base_->bounding_box();
-    return {Point<3>(base.lower[0], base.lower[1], z_lower_),
-            Point<3>(base.upper[0], base.upper[1], z_upper_)};
+    return {place(base.lower[0], base.lower[1], lower_),
+            place(base.upper[0], base.upper[1], upper_)};
+  }
+
+
+
+  Tensor<1, 3>
+  perpendicular(const Tensor<1, 3> &direction)
+  {
+    unsigned int flattest = 0;
+    for (unsigned int d = 1; d < 3; ++d)
+      if (std::abs(direction[d]) < std::abs(direction[flattest]))
+        flattest = d;
+    const Tensor<1, 3> result =
+      cross_product_3d(direction, Point<3>::unit_vector(flattest));
+    return result / result.norm();
+  }
+
+
+
+  namespace
+  {
+    /// Return the corners of the section of a frustum: of a tube on one side of
+    /// the axis, otherwise on both sides, so that the axis is no edge.
+    std::vector<Point<2>>
+    section_of_frustum(const double length,
+                       const double radius,
+                       const double end_radius,
+                       const double inner_radius)
+    {
+      const bool is_tube = inner_radius > 0.;
+      return {Point<2>(is_tube ? inner_radius : -radius, 0.),
+              Point<2>(radius, 0.),
+              Point<2>(end_radius, length),
+              Point<2>(is_tube ? inner_radius : -end_radius, length)};
+    }
+  } // namespace
+
+
+
+  // The surface nearest to a place lies in the half plane of the place and the
+  // axis, so the distance is the distance from the section.
+  Frustum::Frustum(const Point<3> &from,
+                   const Point<3> &to,
+                   const double    radius,
+                   const double    end_radius,
+                   const double    inner_radius)
+    : from_(from)
+    , to_(to)
+    , along_((to - from) / to.distance(from))
+    , radius_(radius)
+    , end_radius_(end_radius)
+    , profile_(
+        "The section of the frustum",
+        section_of_frustum(to.distance(from), radius, end_radius, inner_radius))
+  {}
+
+
+
+  Point<2>
+  Frustum::in_profile(const Point<3> &x) const
+  {
+    const double s = (x - from_) * along_;
+    return {(x - from_ - s * along_).norm(), s};
+  }
+
+
+
+  /// On the axis any direction across the axis is valid.
+  Tensor<1, 3>
+  Frustum::normal(const Point<3> &x) const
+  {
+    const Point<2>     place  = in_profile(x);
+    const Tensor<1, 2> n      = profile_.normal(place);
+    const Tensor<1, 3> across = x - from_ - place[1] * along_;
+    return n[0] * (place[0] > 0. ? across / place[0] : perpendicular(along_)) +
+           n[1] * along_;
+  }
+
+
+
+  /// A disc reaches along an axis as far as the sine of the angle to its own.
+  Box<3>
+  Frustum::bounding_box() const
+  {
+    Box<3> box;
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        const double sine = std::sqrt(std::max(0., 1. - along_[d] * along_[d]));
+        box.lower[d] =
+          std::min(from_[d] - radius_ * sine, to_[d] - end_radius_ * sine);
+        box.upper[d] =
+          std::max(from_[d] + radius_ * sine, to_[d] + end_radius_ * sine);
+      }
+    return box;
   }
 
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/geometry/pipe.h>
-
 #include <talus/base/assertion.h>
+#include <talus/geometry/analytic_shapes.h>
+#include <talus/geometry/pipe.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,20 +30,6 @@ namespace talus
       for (unsigned int d = 0; d < 3; ++d)
         sum += std::pow(std::max({lower[d] - x[d], x[d] - upper[d], 0.}), 2);
       return sum;
-    }
-
-
-
-    Tensor<1, 3>
-    perpendicular(const Tensor<1, 3> &direction)
-    {
-      unsigned int flattest = 0;
-      for (unsigned int d = 1; d < 3; ++d)
-        if (std::abs(direction[d]) < std::abs(direction[flattest]))
-          flattest = d;
-      const Tensor<1, 3> result =
-        cross_product_3d(direction, Point<3>::unit_vector(flattest));
-      return result / result.norm();
     }
   } // namespace
 

@@ -16,6 +16,26 @@ namespace talus
 {
   using namespace dealii;
 
+  namespace
+  {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    /// Return the prism over @p base, see Prism; in 2-D the base.
+    template <int dim>
+    std::unique_ptr<Shape<dim>>
+    over(std::unique_ptr<Shape<2>>    base,
+         const std::array<double, 2> &ends,
+         const unsigned int           axis = 2)
+    {
+      if constexpr (dim == 2)
+        return base;
+      else
+        return std::make_unique<Prism>(std::move(base), ends[0], ends[1], axis);
+    }
+  } // namespace
+
+
+
   template <int dim>
   ShapeParameters<dim>::ShapeParameters(const std::string &section)
     : ParameterAcceptor(section)
@@ -28,14 +48,16 @@ namespace talus
       "Must be given: 'polygon' (see Vertices, Open; in 3-D a prism over it), "
       "'box' (see Lower corner, Upper corner), 'ball' (a disc in "
       "2-D; see Centre, Radius, Inner radius), 'cylinder' (along "
-      "z; in 2-D the same as ball), 'pipe' (along a line in plan; see Route, "
+      "z, in 2-D the same as ball; or along Axis), 'cone' (in 3-D, with or "
+      "without the tip; see Axis, Radius, End radius), 'pipe' (along a line in "
+      "plan; see Route, "
       "Height of axis, Radius), 'half-plane' (in 3-D a half "
       "of space; see Point, Normal), 'terrain' (all below a "
       "surface; see Surface) or 'layer' (between two surfaces; see "
       "Upper surface, Lower surface).",
       this->prm,
       Patterns::Selection(
-        "|polygon|box|ball|cylinder|pipe|half-plane|terrain|layer"));
+        "|polygon|box|ball|cylinder|cone|pipe|half-plane|terrain|layer"));
     add_parameter("Coordinates",
                   coordinates_,
                   "'map', in 2-D only for the route of a pipe: all places of "
@@ -80,9 +102,19 @@ namespace talus
                   "[m].");
     add_parameter("Radius",
                   radius_,
-                  "Radius of the ball, cylinder or pipe [m].",
+                  "Radius of the ball, cylinder or pipe, of the cone at the "
+                  "beginning of its axis [m].",
                   this->prm,
                   Patterns::Double(1e-12));
+    add_parameter("Axis",
+                  axis_,
+                  "3-D only: both ends of the axis of a cylinder or cone, as "
+                  "x,y,z; x,y,z [m]. Empty: the cylinder lies along z.");
+    add_parameter("End radius",
+                  end_radius_,
+                  "Radius of the cone at the end of its axis, 0 for a tip [m].",
+                  this->prm,
+                  Patterns::Double(0.));
     add_parameter("Inner radius",
                   inner_radius_,
                   "Radius of the hollow in the ball or cylinder, for a ring "
@@ -188,16 +220,17 @@ namespace talus
     // Also reached for a listed section that is missing.
     AssertThrow(
       !shape_.empty(),
-      ExcUser(text(path("Shape"),
-                   " is not given, but 'polygon', 'box', 'ball', 'cylinder', "
-                   "'pipe', 'half-plane', 'terrain' or 'layer' is expected "
-                   "there. Add the entry and the further entries of the shape "
-                   "to the section '",
-                   section_.substr(1),
-                   "', or the whole section, or remove the name "
-                   "from '",
-                   section_.substr(1, section_.rfind('/') - 1),
-                   "/Names'.")));
+      ExcUser(
+        text(path("Shape"),
+             " is not given, but 'polygon', 'box', 'ball', 'cylinder', "
+             "'cone', 'pipe', 'half-plane', 'terrain' or 'layer' is expected "
+             "there. Add the entry and the further entries of the shape "
+             "to the section '",
+             section_.substr(1),
+             "', or the whole section, or remove the name "
+             "from '",
+             section_.substr(1, section_.rfind('/') - 1),
+             "/Names'.")));
     if (shape_ == "half-plane")
       return make_half_space();
     if (shape_ == "box")
@@ -214,7 +247,7 @@ namespace talus
           base = std::make_unique<OpenPolygon>(name, vertices(false));
         else
           base = std::make_unique<Polygon>(name, vertices(false));
-        return make_over(std::move(base), domain);
+        return over<dim>(std::move(base), extent_z(domain));
       }
     if (is_pipe())
       return pipe_.make(setting_of_pipe());
@@ -222,10 +255,41 @@ namespace talus
     const Point<dim> centre = coordinates().in_space(centre_);
     if (shape_ == "ball")
       return std::make_unique<Ball<dim>>(centre, radius_, inner_radius_);
-    return make_over(std::make_unique<Ball<2>>(Point<2>(centre[0], centre[1]),
+    if (shape_ == "cone" || !axis_.empty())
+      return make_frustum();
+    return over<dim>(std::make_unique<Ball<2>>(Point<2>(centre[0], centre[1]),
                                                radius_,
                                                inner_radius_),
-                     domain);
+                     extent_z(domain));
+  }
+
+
+
+  template <int dim>
+  std::unique_ptr<Shape<dim>>
+  ShapeParameters<dim>::make_frustum() const
+  {
+    AssertThrow(dim == 3 && axis_.size() == 2 && axis_[0] != axis_[1],
+                ExcUser(text(path("Axis"),
+                             " has ",
+                             counted(axis_.size(), "place"),
+                             " in ",
+                             dim,
+                             "-D, but a ",
+                             shape_,
+                             " needs two different places, as x,y,z; x,y,z, "
+                             "in 3-D. Correct the entry; in 2-D use a "
+                             "polygon.")));
+    if constexpr (dim == 3)
+      {
+        const bool is_cone = shape_ == "cone";
+        return std::make_unique<Frustum>(coordinates().in_space(axis_[0]),
+                                         coordinates().in_space(axis_[1]),
+                                         radius_,
+                                         is_cone ? end_radius_ : radius_,
+                                         is_cone ? 0. : inner_radius_);
+      }
+    return nullptr;
   }
 
 
@@ -320,20 +384,6 @@ namespace talus
 
   template <int dim>
   std::unique_ptr<Shape<dim>>
-  ShapeParameters<dim>::make_over(std::unique_ptr<Shape<2>> base,
-                                  const Box<dim>           &domain) const
-  {
-    const std::array<double, 2> z = extent_z(domain);
-    if constexpr (dim == 2)
-      return base;
-    else
-      return std::make_unique<Prism>(std::move(base), z[0], z[1]);
-  }
-
-
-
-  template <int dim>
-  std::unique_ptr<Shape<dim>>
   ShapeParameters<dim>::make_side(
     const std::string                      &entry,
     const std::string                      &expression,
@@ -356,27 +406,6 @@ namespace talus
 
 
 
-  namespace
-  {
-    std::unique_ptr<Shape<2>>
-    over_outline(std::unique_ptr<Shape<2>> outline,
-                 std::integral_constant<int, 2>)
-    {
-      return outline;
-    }
-
-
-
-    std::unique_ptr<Shape<3>>
-    over_outline(std::unique_ptr<Shape<2>> outline,
-                 std::integral_constant<int, 3>)
-    {
-      return std::make_unique<VerticalPrism>(std::move(outline));
-    }
-  } // namespace
-
-
-
   /// Limits in plan come first: the surfaces may be undefined beyond.
   template <int dim>
   std::unique_ptr<Shape<dim>>
@@ -387,8 +416,8 @@ namespace talus
     if (!(lower_corner_ == upper_corner_))
       {
         Box<dim> box = coordinates().box(lower_corner_, upper_corner_);
-        box.upper[1] = std::numeric_limits<double>::infinity();
-        box.lower[1] = -box.upper[1];
+        box.upper[1] = infinity;
+        box.lower[1] = -infinity;
         for (unsigned int d = 0; d < dim; d += 2)
           AssertThrow(box.lower[d] < box.upper[d],
                       ExcUser(text(path("Upper corner"),
@@ -400,10 +429,11 @@ namespace talus
         parts.push_back(std::make_unique<BoxRegion<dim>>(box));
       }
     if (!vertices_.empty())
-      parts.push_back(
-        over_outline(std::make_unique<Polygon>(
-                       "The vertices in " + path("Vertices"), vertices(true)),
-                     std::integral_constant<int, dim>()));
+      parts.push_back(over<dim>(std::make_unique<Polygon>("The vertices in " +
+                                                            path("Vertices"),
+                                                          vertices(true)),
+                                {{-infinity, infinity}},
+                                1));
     parts.push_back(make_side("Upper surface", upper_surface_, Side::below));
     parts.push_back(make_side("Lower surface", lower_surface_, Side::above));
     auto layer = std::make_unique<Intersection<dim>>(std::move(parts));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
-#include <talus/materials/elastic_law.h>
 #include <talus/materials/materials.h>
 
 #include <deal.II/base/mpi.h>
@@ -76,30 +75,6 @@ namespace talus
 
 
 
-  namespace
-  {
-    /// Return a remark if the law has an undrained strength but Poisson's ratio
-    /// is typical of drained soil; empty otherwise.
-    template <int dim>
-    Remark
-    note_on_volume(const MaterialModel<dim> &model)
-    {
-      const auto *law = dynamic_cast<const ElasticLaw<dim> *>(&model);
-      if (law == nullptr || !model.has_strength() ||
-          law->poisson_ratio() >= 0.4)
-        return "";
-      return {text("`Poisson's ratio` is ",
-                   law->poisson_ratio(),
-                   ", but its law is one of undrained soil, which keeps its "
-                   "volume: 0.45 to 0.49 is usual. With less, load compresses "
-                   "the soil."),
-              Severity::look,
-              "section " + model.section()};
-    }
-  } // namespace
-
-
-
   template <int dim>
   std::vector<Remark>
   Materials<dim>::notes(const double cell_size) const
@@ -114,10 +89,7 @@ namespace talus
                             Severity::look,
                             "section " + models_[m]->section());
       else
-        {
-          result.push_back(models_[m]->note(cell_size));
-          result.push_back(note_on_volume(*models_[m]));
-        }
+        result.push_back(models_[m]->note(cell_size));
     return result;
   }
 

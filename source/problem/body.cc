@@ -47,6 +47,11 @@ namespace talus
                   "true: parts of the body inside obstacles are removed, and "
                   "the body is filled down to the obstacles. false: a body "
                   "inside an obstacle is an error.");
+    add_parameter("Cut by mesh",
+                  cut_by_mesh_,
+                  "Whether parts of the body outside of the mesh are left out, "
+                  "as of a cylinder in a quarter model between planes of "
+                  "symmetry; otherwise they are an error.");
   }
 
 
@@ -61,10 +66,10 @@ namespace talus
     Box<dim> box = shape_.make(domain)->bounding_box();
     for (unsigned int d = 0; d < dim; ++d)
       {
-        if (std::isinf(box.lower[d]))
-          box.lower[d] = domain.lower[d];
-        if (std::isinf(box.upper[d]))
-          box.upper[d] = domain.upper[d];
+        if (std::isinf(box.lower[d]) || cut_by_mesh_)
+          box.lower[d] = std::max(box.lower[d], domain.lower[d]);
+        if (std::isinf(box.upper[d]) || cut_by_mesh_)
+          box.upper[d] = std::min(box.upper[d], domain.upper[d]);
       }
     check_inside(box, domain);
     return box;
@@ -99,7 +104,9 @@ namespace talus
                                  domain.upper[d],
                                  " m. Make the mesh larger ('Grid/Lower "
                                  "corner', 'Grid/Upper corner') or move the "
-                                 "body.")));
+                                 "body; or leave out the part beyond by ",
+                                 path("Cut by mesh"),
+                                 ".")));
       }
   }
 

@@ -6,6 +6,7 @@
 #include <talus/problem/layer_ends.h>
 #include <talus/problem/layer_surfaces.h>
 #include <talus/problem/problem.h>
+#include <talus/problem/stiffness.h>
 #include <talus/problem/strength_field.h>
 #include <talus/problem/surface_weakening.h>
 #include <talus/transfer/send_to_owners.h>
@@ -171,8 +172,14 @@ namespace talus
     const auto on_thickness = bodies_.measure_thickness(state.points,
                                                         state.grid,
                                                         limits_shear_stress());
-    if (loading.gravity().norm() > 0.)
+    const double gravity = loading.gravity().norm();
+    if (gravity > 0.)
       add_remarks(on_thickness);
+    add_remarks(notes_on_stiffness(state.points,
+                                   materials,
+                                   bodies_.thickness(),
+                                   gravity,
+                                   state.communicator()));
     // Face 2 is the bottom in 2-D and 3-D.
     if (boundaries.is_free(2))
       add_remarks(std::vector<Remark>{

@@ -5,6 +5,10 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace talus
 {
   using namespace dealii;
@@ -12,6 +16,14 @@ namespace talus
   // Share of the points that is told: a few points among thousands of
   // neighbours leave no gap.
   constexpr double told_share = 1e-3;
+
+  // Square of speed over wave speed: the pressure of an impact, rho v^2/2, then
+  // compresses soil by a tenth, the limit for the weight in
+  // source/problem/stiffness.cc.
+  constexpr double told_square = 0.2;
+
+  // Nodes of less than a tenth of a cell of soil may be much faster than soil.
+  constexpr double mass_over_cutoff = 1e8;
 
 
 
@@ -101,8 +113,49 @@ namespace talus
 
 
 
+  template <int dim>
+  Remark
+  remark_on_speed(const State<dim> &state, const Materials<dim> &materials)
+  {
+    const Points<dim> &points = state.points;
+    double speed = 0., wave_speed = std::numeric_limits<double>::infinity();
+    for (const unsigned int node : state.nodes.active_nodes())
+      if (state.nodes.mass(node) >
+          mass_over_cutoff * state.constants.mass_cutoff)
+        speed = std::max(speed, state.nodes.velocity(node).norm());
+    for (unsigned int p = 0; p < points.size(); ++p)
+      if (const auto &law = materials.of_body(points.data(points.body)[p]);
+          law.has_strength())
+        wave_speed = std::min(wave_speed, law.wave_speed(points, p));
+    speed               = Utilities::MPI::max(speed, state.communicator());
+    wave_speed          = Utilities::MPI::min(wave_speed, state.communicator());
+    const double square = std::pow(speed / wave_speed, 2);
+    if (square <= told_square)
+      return "";
+    return text(std::setprecision(3),
+                "At t = ",
+                state.time,
+                " s the soil is too soft for its speed of ",
+                speed,
+                " m/s: with waves of ",
+                wave_speed,
+                " m/s, (v/c)^2 is ",
+                square,
+                ", where at most ",
+                told_square,
+                " was expected, and impacts compress the soil. Make `Young's "
+                "modulus` ",
+                square / told_square,
+                " times larger.");
+  }
+
+
+
   template class RunRemarks<2>;
   template class RunRemarks<3>;
+
+  template decltype(remark_on_speed<2>) remark_on_speed<2>;
+  template decltype(remark_on_speed<3>) remark_on_speed<3>;
 
   template decltype(remark_on_split_limits<2>) remark_on_split_limits<2>;
   template decltype(remark_on_split_limits<3>) remark_on_split_limits<3>;

@@ -91,6 +91,9 @@ namespace talus
     remarks->add("split limit remark", [this](const State<dim> &state) {
       return remark_on_split_limits(state, scheme_.splitter());
     });
+    remarks->add("speed remark", [this](const State<dim> &state) {
+      return remark_on_speed(state, problem_.materials);
+    });
     remarks->add("hydroplaning remark", [this](const State<dim> &state) {
       return problem_.hydroplaning.report(state);
     });

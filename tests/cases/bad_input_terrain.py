@@ -152,7 +152,8 @@ class BadInputTerrain(Case):
         clay = ["Materials/clay/Law=von Mises",
                 "Materials/clay/Poisson's ratio=0.49"]
         for settings, *words in (
-                (clay[:1], "`Poisson's ratio` is 0.3", "0.45 to 0.49"),
+                (clay[:1] + ["Materials/clay/Young's modulus=1e3"],
+                 "Body 'block': the soil is too soft: rho' g H/G = "),
                 (["Materials/Names=clay, sand"],
                  "Section /Materials/sand: no body is made of this material"),
                 (self.layer("2-0.5*x", "0.5*x-0.2"), "lies above the upper surface",

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Infinite layers on a slope of 5 degrees: one that slides on a soft interface,
 // prm/verification/shear-layer.prm, and two that flow, bingham-layer.prm and
-// herschel-bulkley-layer.prm.
+// herschel-bulkley-layer.prm; and a flow between walls with a film, channel.prm
+// and channel-3d.prm.
 
 #include "case.h"
 #include "verification.h"
@@ -146,7 +147,81 @@ namespace
                     exact(5.),
                   0.005);
   }
+
+
+
+  /// Flow between two walls, along the component @p x or y of the velocity.
+  template <int dim>
+  void
+  expect_channel(const std::string &walls,
+                 const std::string &component,
+                 const Overrides   &overrides = {})
+  {
+    const std::string file  = dim == 2 ? "channel.prm" : "channel-3d.prm";
+    const Table       table = run<dim>(file, "channel-" + walls, overrides);
+    constexpr double  f = 1000., mu = 100., K = 500.; // N/m^3, Pa s, Pa (s/m)^n
+    Verification      gates("Channel between walls with a film, " + walls,
+                       "tests/cases/" + file,
+                       "u = f H^2/(12 mu) + b (f H/(2 K))^(1/n)");
+    gates.near("mean velocity [m/s]",
+               table["centre velocity " + component + " [m/s]"].back(),
+               f / (12. * mu) + std::pow(f / (2. * K), 2),
+               0.01);
+  }
 } // namespace
+
+
+
+TEST(Channel, FacesAlongX)
+{
+  expect_channel<2>("faces along x", "y");
+}
+
+
+
+TEST(Channel, FacesAlongY)
+{
+  expect_channel<2>("faces along y",
+                    "x",
+                    {"Grid/Upper corner=0.125, 1",
+                     "Bodies/mud/Upper corner=0.125, 1",
+                     "Body force/Expression=1; 12*(y-0.5)",
+                     "Boundaries/Left=periodic",
+                     "Boundaries/Right=periodic",
+                     "Boundaries/Bottom=seabed",
+                     "Boundaries/Top=seabed"});
+}
+
+
+
+TEST(Channel, FacesAlongZ)
+{
+  expect_channel<3>("faces along z", "x");
+}
+
+
+
+// The surfaces lie in the middle of cells.
+TEST(Channel, Obstacles)
+{
+  Overrides walls = {"Grid/Lower corner=-0.1875, 0",
+                     "Grid/Upper corner=1.1875, 0.125",
+                     "Boundaries/Left=free",
+                     "Boundaries/Right=free",
+                     "Obstacles/Names=left, right",
+                     "Obstacles/left/Normal=1, 0",
+                     "Obstacles/right/Normal=-1, 0",
+                     "Obstacles/right/Point=1, 0"};
+  for (const std::string wall : {"left", "right"})
+    for (const std::string entry : {"Shape=half-plane",
+                                    "Friction coefficient=0",
+                                    "Maximum shear stress=0",
+                                    "Film consistency=500",
+                                    "Film exponent=0.5",
+                                    "Film thickness=1"})
+      walls.push_back(text("Obstacles/", wall, '/', entry));
+  expect_channel<2>("obstacles", "y", walls);
+}
 
 
 

@@ -2,8 +2,9 @@
 #ifndef talus_geometry_analytic_shapes_h
 #define talus_geometry_analytic_shapes_h
 
-#include <talus/geometry/shape.h>
+#include <talus/geometry/polygon.h>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 
@@ -108,12 +109,17 @@ namespace talus
 
 
 
-  /// Prism along z over a shape in the x-y plane: over a disc, a cylinder.
+  /// Prism over a plane shape: along z over a shape in the x-y plane, or upright
+  /// over an outline in plan, whose first axis is x, the second z.
   class Prism : public Shape<3>
   {
   public:
-    /// From @p z_lower to @p z_upper, m, possibly infinite.
-    Prism(std::unique_ptr<const Shape<2>> base, double z_lower, double z_upper);
+    /// From @p lower to @p upper, m, possibly infinite, along @p axis: 2, or 1
+    /// for upright.
+    Prism(std::unique_ptr<const Shape<2>> base,
+          double                          lower,
+          double                          upper,
+          unsigned int                    axis = 2);
 
     double
     signed_distance(const dealii::Point<3> &x) const override;
@@ -128,61 +134,75 @@ namespace talus
     bounding_box() const override;
 
   private:
+    /// Place in the plane of the base.
+    dealii::Point<2>
+    foot(const dealii::Point<3> &x) const
+    {
+      return {x[0], x[3 - axis_]};
+    }
+
+    /// Place from coordinates in the plane of the base and along the axis.
+    dealii::Point<3>
+    place(double first, double second, double along) const;
+
     /// Distance to the nearer end, m: negative between both ends.
     double
-    distance_to_ends(double z) const;
+    distance_to_ends(double along) const;
 
     std::unique_ptr<const Shape<2>> base_;
-    double                          z_lower_, z_upper_;
+    double                          lower_, upper_;
+    unsigned int                    axis_;
   };
 
 
 
-  /// Endless vertical prism above and below an outline in plan.
-  class VerticalPrism : public Shape<3>
+  /// Return a unit vector at a right angle to @p direction.
+  dealii::Tensor<1, 3>
+  perpendicular(const dealii::Tensor<1, 3> &direction);
+
+
+
+  /// Frustum of a cone with any axis: a cylinder, a cone, or a tube.
+  class Frustum : public Shape<3>
   {
   public:
-    /// The first axis of @p outline is x, the second z.
-    explicit VerticalPrism(std::unique_ptr<const Shape<2>> outline)
-      : outline_(std::move(outline))
-    {}
+    /// The axis leads from @p from to @p to, where the radii are @p radius and
+    /// @p end_radius, which may be 0. A tube has the inner radius
+    /// @p inner_radius throughout. All in m.
+    Frustum(const dealii::Point<3> &from,
+            const dealii::Point<3> &to,
+            double                  radius,
+            double                  end_radius,
+            double                  inner_radius = 0.);
 
     double
     signed_distance(const dealii::Point<3> &x) const override
     {
-      return outline_->signed_distance(in_plan(x));
+      return profile_.signed_distance(in_profile(x));
     }
 
     dealii::Tensor<1, 3>
-    normal(const dealii::Point<3> &x) const override
-    {
-      const dealii::Tensor<1, 2> n = outline_->normal(in_plan(x));
-      return dealii::Tensor<1, 3>({n[0], 0., n[1]});
-    }
-
-    bool
-    contains(const dealii::Point<3> &x) const override
-    {
-      return outline_->contains(in_plan(x));
-    }
+    normal(const dealii::Point<3> &x) const override;
 
     Box<3>
-    bounding_box() const override
+    bounding_box() const override;
+
+    double
+    width() const override
     {
-      constexpr double infinity = std::numeric_limits<double>::infinity();
-      const Box<2>     box      = outline_->bounding_box();
-      return {dealii::Point<3>(box.lower[0], -infinity, box.lower[1]),
-              dealii::Point<3>(box.upper[0], infinity, box.upper[1])};
+      return 2. * std::max(radius_, end_radius_);
     }
 
   private:
-    static dealii::Point<2>
-    in_plan(const dealii::Point<3> &x)
-    {
-      return {x[0], x[2]};
-    }
+    /// Distance from the axis and place along the axis, m.
+    dealii::Point<2>
+    in_profile(const dealii::Point<3> &x) const;
 
-    std::unique_ptr<const Shape<2>> outline_;
+    dealii::Point<3>     from_, to_;
+    dealii::Tensor<1, 3> along_; ///< unit vector
+    double               radius_, end_radius_;
+    /// Section through the axis; of solids on both sides of the axis.
+    Polygon profile_;
   };
 } // namespace talus
 

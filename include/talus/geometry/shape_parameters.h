@@ -91,7 +91,7 @@ namespace talus
     std::unique_ptr<Shape<dim>>
     make_box() const;
     std::unique_ptr<Shape<dim>>
-    make_over(std::unique_ptr<Shape<2>> base, const Box<dim> &domain) const;
+    make_frustum() const;
     std::unique_ptr<Shape<dim>>
     make_side(const std::string                &entry,
               const std::string                &expression,
@@ -103,17 +103,21 @@ namespace talus
     void
     check_radii() const;
 
-    std::string               section_;
-    PipeParameters<dim>       pipe_;
-    std::string               shape_       = ""; ///< no default
-    std::string               coordinates_ = "mesh";
-    std::string               vertices_    = "";
-    bool                      is_open_     = false;
-    std::string               extent_z_    = "";
-    dealii::Point<dim>        lower_corner_, upper_corner_;
-    dealii::Point<dim>        centre_;
-    double                    radius_       = 1.;
-    double                    inner_radius_ = 0.;
+    std::string         section_;
+    PipeParameters<dim> pipe_;
+    std::string         shape_       = ""; ///< no default
+    std::string         coordinates_ = "mesh";
+    std::string         vertices_    = "";
+    bool                is_open_     = false;
+    std::string         extent_z_    = "";
+    dealii::Point<dim>  lower_corner_, upper_corner_;
+    dealii::Point<dim>  centre_;
+    double              radius_       = 1.;
+    double              inner_radius_ = 0.;
+    double              end_radius_   = 0.;
+
+    std::vector<dealii::Point<dim>> axis_; ///< two ends, or empty
+
     dealii::Point<dim>        point_;
     dealii::Tensor<1, dim>    normal_ = dealii::Point<dim>::unit_vector(1);
     std::string               surface_, upper_surface_, lower_surface_;

@@ -126,6 +126,7 @@ namespace talus
     std::vector<unsigned int> points_per_cell_{2};
     std::string               filling_          = "clipped";
     bool                      cut_by_obstacles_ = true;
+    bool                      cut_by_mesh_      = false;
     InitialState<dim>         initial_state_;
   };
 } // namespace talus

@@ -5,6 +5,7 @@
 #include <talus/adaptivity/splitter.h>
 #include <talus/base/quantity.h>
 #include <talus/io/log.h>
+#include <talus/materials/materials.h>
 #include <talus/observers/observer.h>
 
 #include <functional>
@@ -80,6 +81,12 @@ namespace talus
   /// as listed by list_contact_area().
   Remark
   remark_on_contact_area(double time, const Quantities &areas);
+
+  /// Remark that plastic soil moves faster than a third of the speed of its
+  /// waves, so that impacts compress the soil. Collective.
+  template <int dim>
+  Remark
+  remark_on_speed(const State<dim> &state, const Materials<dim> &materials);
 } // namespace talus
 
 #endif

@@ -112,6 +112,11 @@ namespace
             -infinity,
             infinity));
     expect_distance(Pipe({{0.5, 1., 0.}, {3., 2., 2.}}, 0.8));
+    const Point<3> from(0.5, 1., 0.), to(2., 2., 2.);
+    expect_distance(Frustum(from, to, 0.8, 0.8));
+    expect_distance(Frustum(from, to, 0.4, 1.2));
+    expect_distance(Frustum(from, to, 1.2, 0.));
+    expect_distance(Frustum(from, to, 1., 1., 0.5));
   }
 
 
@@ -135,6 +140,12 @@ namespace
     const Prism pipe(std::make_unique<Ball<2>>(Point<2>(), 2.), 0., 8.);
     EXPECT_DOUBLE_EQ(pipe.signed_distance(Point<3>(5., 0., 12.)), 5.);
     EXPECT_DOUBLE_EQ(pipe.signed_distance(Point<3>(0., 1., 3.)), -1.);
+    // Upright, with a slope of 3 in 4.
+    const Frustum cone(Point<3>(), Point<3>(0., 4., 0.), 3., 0.);
+    EXPECT_DOUBLE_EQ(cone.signed_distance(Point<3>(5.5, 4., 0.)), 4.4);
+    EXPECT_DOUBLE_EQ(cone.signed_distance(Point<3>(0., 1.5, 0.)), -1.5);
+    EXPECT_EQ(cone.bounding_box().lower, Point<3>(-3., 0., -3.));
+    EXPECT_EQ(cone.bounding_box().upper, Point<3>(3., 4., 3.));
   }
 
 

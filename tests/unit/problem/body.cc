@@ -162,25 +162,6 @@ namespace
 
 
 
-  // The boxes of the points that do not agree with the disc lie within half a
-  // diagonal of its edge.
-  TEST(Bodies, DiscAndRing)
-  {
-    constexpr double pi   = dealii::numbers::PI;
-    const auto       area = [](const std::string &inner) {
-      WithBodies<2> all({"set Shape = ball\nset Centre = 2, 2\n"
-                               "set Radius = 1.5\nset Inner radius = " +
-                         inner + "\nset Points per cell and axis = 16"});
-      all.create();
-      return all.sum(all.points.reference_volume);
-    };
-    const double band = 2. * pi * std::sqrt(2.) / 16.;
-    EXPECT_NEAR(area("0"), pi * 2.25, 1.5 * band);
-    EXPECT_NEAR(area("1"), pi * 1.25, 2.5 * band);
-  }
-
-
-
   TEST(Bodies, PrismFillsTheMeshOrItsExtent)
   {
     const std::string square = polygon("0,0; 1,0; 1,1; 0,1");
@@ -215,6 +196,12 @@ namespace
     expect(error<2>(
              {"set Shape = ball\nset Radius = 1\nset Inner radius = 1\n"}),
            "leaves nothing of the ball");
+    const std::string corner = "set Shape = cone\nset End radius = 1\n";
+    expect(error<3>({corner + "set Axis = 0, 0, 0; 0, 3, 0"}),
+           "or leave out the part beyond by 'Bodies/0/Cut by mesh'");
+    expect(error<3>({corner + "set Axis = 0, 0, 0"}),
+           "'Bodies/0/Axis' has 1 place in 3-D, but a cone needs two");
+    expect(error<2>({corner}), "has 0 places in 2-D");
     // Neighbours that share a face do not overlap.
     EXPECT_EQ(error<2>({box("0, 0", "2, 2"), box("2, 0", "3, 2")}), "");
   }
@@ -273,6 +260,23 @@ namespace
                                   "set Extent in z = 0.5, 2.3\n"),
                 dealii::numbers::PI * 1.7 * 1.7 * 1.8,
                 1e-2 * 16.);
+    EXPECT_NEAR(clipped_volume<3>("set Shape = cylinder\nset Radius = 0.9\n"
+                                  "set Inner radius = 0.4\n"
+                                  "set Axis = 1, 1, 1.5; 2.5, 3, 2.5\n"),
+                dealii::numbers::PI * (0.81 - 0.16) * std::sqrt(7.25),
+                1e-2 * 5.5);
+    const auto cone = [](const std::string &axis) {
+      return clipped_volume<3>("set Shape = cone\nset Radius = 1.8\n"
+                               "set End radius = 0.6\nset Axis = " +
+                               axis + "\nset Cut by mesh = true\n");
+    };
+    const double volume =
+      dealii::numbers::PI / 3. * 3. * (3.24 + 1.8 * 0.6 + 0.36);
+    EXPECT_NEAR(cone("2, 0, 2; 2, 3, 2"), volume, 4e-3 * volume);
+    EXPECT_NEAR(cone("0.4, 2, 2; 3.4, 2, 2"), volume, 4e-3 * volume);
+    // Between planes of symmetry.
+    EXPECT_NEAR(cone("0, 0, 0; 0, 3, 0"), volume / 4., 1e-3 * volume);
+    EXPECT_NEAR(cone("4, 1, 2; 4, 4, 2"), volume / 2., 2e-3 * volume);
   }
 
 

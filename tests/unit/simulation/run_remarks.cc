@@ -3,7 +3,7 @@
 #include <talus/simulation/run_remarks.h>
 
 #include "../contact/soil_on_bed.h"
-#include "core_setup.h"
+#include "../whole_problem.h"
 
 namespace run_remarks_test
 {
@@ -114,4 +114,38 @@ TEST(RunRemarks, PointsThatCannotBeSplitAreToldOnce)
     << said;
   remarks.observe(core);
   EXPECT_EQ(log.count_of_remarks(), "1 remark");
+}
+
+
+
+// The block falls at the share m of the speed of its waves.
+TEST(RunRemarks, SoilNearItsWaveSpeedIsToldOnce)
+{
+  using namespace talus;
+  WholeProblem<Transfer<2>> soil;
+  Log                       log{MPI_COMM_WORLD};
+  RunRemarks<2>             remarks(log);
+  remarks.add("speed remark", [&soil](const State<2> &state) {
+    return remark_on_speed(state, soil.problem.materials);
+  });
+  soil.observed.use_bbar({false});
+  const double c = soil.problem.materials.of_body(0).wave_speed(soil.points, 0);
+  for (const double m : {0.44, 0.5, 0.6})
+    {
+      Loads<2> none;
+      none.acceleration_of_body.resize(1);
+      std::fill_n(soil.points.data(soil.points.velocity, 1),
+                  soil.points.size(),
+                  -m * c);
+      soil.nodes.prepare(soil.grid);
+      soil.nodes.activate(soil.grid, soil.relocation.occupied_cells());
+      soil.workspace.reinit(0, soil.points.size());
+      soil.observed.scatter(soil.with(none), soil.points.all());
+      soil.nodes.update_momentum(0., 0.);
+      testing::internal::CaptureStdout();
+      remarks.observe(soil);
+      EXPECT_EQ(contains(testing::internal::GetCapturedStdout(),
+                         "(v/c)^2 is 0.25, where at most 0.2"),
+                m == 0.5);
+    }
 }
