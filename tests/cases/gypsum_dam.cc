@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A Bingham fluid runs out on a base that holds it, validation/gypsum-tailings.prm, and comes
-// to rest. Its soil is sheared by the thousand: with a deformation gradient
+// A Bingham fluid runs out on a base that holds it and comes to rest,
+// validation/gypsum-tailings.prm. Its soil is sheared by the thousand: with a deformation gradient
 // that only grows, det F of a point is round-off after 55 s (h = 1 m) and the
 // run ends.
 
