@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A Bingham fluid runs out on a base that holds it and comes to rest,
-// validation/gypsum-tailings.prm. Its soil is sheared by the thousand: with a deformation gradient
-// that only grows, det F of a point is round-off after 55 s (h = 1 m) and the
-// run ends.
+// validation/gypsum-tailings.prm. Its soil is sheared by the thousand: with a
+// deformation gradient that only grows, det F of a point is round-off after
+// 55 s (h = 1 m) and the run ends.
 
 #include "case.h"
 
