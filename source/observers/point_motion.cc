@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace talus
 {
@@ -18,12 +19,10 @@ namespace talus
     struct PointSums
     {
       double         n_points = 0;
-      double         mass     = 0; // kg
-      Tensor<1, dim> moment;       // kg m
-      Tensor<1, dim> momentum;     // kg m/s
-      double         front         = std::numeric_limits<double>::lowest();
-      double         rear          = std::numeric_limits<double>::max();
-      double         top           = std::numeric_limits<double>::lowest();
+      double         mass     = 0;      // kg
+      Tensor<1, dim> moment;            // kg m
+      Tensor<1, dim> momentum;          // kg m/s
+      Box<dim>       extent;            // m
       double         maximum_speed = 0; // m/s
     };
 
@@ -36,6 +35,11 @@ namespace talus
     sum_over_own_points(const Points<dim> &points)
     {
       PointSums<dim> result;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          result.extent.lower[d] = std::numeric_limits<double>::max();
+          result.extent.upper[d] = std::numeric_limits<double>::lowest();
+        }
       result.n_points           = points.size();
       const double *mass        = points.data(points.mass);
       double        top_speed_2 = 0;
@@ -44,18 +48,16 @@ namespace talus
           double speed_2 = 0;
           for (unsigned int d = 0; d < dim; ++d)
             {
-              const double v = points.data(points.velocity, d)[p];
-              result.moment[d] += mass[p] * points.data(points.position, d)[p];
+              const double v         = points.data(points.velocity, d)[p];
+              const double x         = points.data(points.position, d)[p];
+              result.extent.lower[d] = std::min(result.extent.lower[d], x);
+              result.extent.upper[d] = std::max(result.extent.upper[d], x);
+              result.moment[d] += mass[p] * x;
               result.momentum[d] += mass[p] * v;
               speed_2 += v * v;
             }
           result.mass += mass[p];
           top_speed_2 = std::max(top_speed_2, speed_2);
-
-          const double x = points.data(points.position, 0)[p];
-          result.front   = std::max(result.front, x);
-          result.rear    = std::min(result.rear, x);
-          result.top = std::max(result.top, points.data(points.position, 1)[p]);
         }
       result.maximum_speed = std::sqrt(top_speed_2);
       return result;
@@ -63,8 +65,8 @@ namespace talus
 
 
 
-    /// Sum over the points of all ranks; without points front, rear and top are
-    /// NaN. Collective.
+    /// Sum over the points of all ranks; without points the extent is NaN.
+    /// Collective.
     template <int dim>
     PointSums<dim>
     sum_over_points(const Points<dim> &points, const MPI_Comm communicator)
@@ -74,13 +76,15 @@ namespace talus
       sum.mass           = Utilities::MPI::sum(sum.mass, communicator);
       sum.moment         = Utilities::MPI::sum(sum.moment, communicator);
       sum.momentum       = Utilities::MPI::sum(sum.momentum, communicator);
-      sum.front          = Utilities::MPI::max(sum.front, communicator);
-      sum.rear           = Utilities::MPI::min(sum.rear, communicator);
-      sum.top            = Utilities::MPI::max(sum.top, communicator);
       sum.maximum_speed  = Utilities::MPI::max(sum.maximum_speed, communicator);
-      if (sum.n_points == 0)
-        sum.front = sum.rear = sum.top =
-          std::numeric_limits<double>::quiet_NaN();
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          double &lower = sum.extent.lower[d], &upper = sum.extent.upper[d];
+          lower = Utilities::MPI::min(lower, communicator);
+          upper = Utilities::MPI::max(upper, communicator);
+          if (sum.n_points == 0)
+            lower = upper = std::numeric_limits<double>::quiet_NaN();
+        }
       return sum;
     }
 
@@ -103,6 +107,22 @@ namespace talus
             height = std::max(height, x[1] - ground.elevation(x));
         }
       return height;
+    }
+  } // namespace
+
+
+
+  namespace
+  {
+    /// Maximum speed of a node of this rank, m/s; 0 before the first step.
+    template <int dim>
+    double
+    maximum_speed(const NodalFields<dim> &nodes)
+    {
+      double square = 0;
+      for (const unsigned int node : nodes.active_nodes())
+        square = std::max(square, nodes.velocity(node).norm_square());
+      return std::sqrt(square);
     }
   } // namespace
 
@@ -193,19 +213,20 @@ namespace talus
     const PointSums<dim> sums =
       sum_over_points(state.points, state.communicator());
     list.push_back({"points", "", sums.n_points});
-    if (with_runout)
+    for (unsigned int d = 0; with_runout && d < dim; d += 2)
       {
-        list.push_back({"front x", "m", sums.front});
+        const std::string axis(1, "xyz"[d]);
+        list.push_back({"front " + axis, "m", sums.extent.upper[d]});
         list.push_back(
-          {"front of 99.5 % mass x",
+          {"front of 99.5 % mass " + axis,
            "m",
-           front_of_mass(state.points, 0, 0.995, state.communicator())});
-        list.push_back({"rear x", "m", sums.rear});
+           front_of_mass(state.points, d, 0.995, state.communicator())});
+        list.push_back({"rear " + axis, "m", sums.extent.lower[d]});
       }
     list.push_back({"height",
                     "m",
                     ground.is_bottom_face()
-                      ? sums.top - state.grid.domain().lower[1]
+                      ? sums.extent.upper[1] - state.grid.domain().lower[1]
                       : Utilities::MPI::max(height_above(ground, state.points),
                                             state.communicator())});
     append_vector<dim>(list, "centre", "m", sums.moment / sums.mass);
@@ -213,9 +234,13 @@ namespace talus
                        "centre velocity",
                        "m/s",
                        sums.momentum / sums.mass);
-    list.push_back({"maximum speed", "m/s", sums.maximum_speed});
+    list.push_back(
+      {"maximum speed",
+       "m/s",
+       Utilities::MPI::max(maximum_speed(state.nodes), state.communicator())});
+    list.push_back({"maximum speed of points", "m/s", sums.maximum_speed});
     list.push_back({"mass", "kg", sums.mass});
-    list.push_back({"momentum x", "kg m/s", sums.momentum[0]});
+    append_vector<dim>(list, "momentum", "kg m/s", sums.momentum);
   }
 
 
