@@ -114,28 +114,97 @@ namespace talus
 
   namespace
   {
-    /// Maximum speed of a node of this rank, m/s; 0 before the first step.
+    struct Share
+    {
+      double x, mass;
+    };
+
+
+
+    /// Return the smallest x for which the shares with no larger x have at
+    /// least the fraction @p fraction of the mass of all ranks; NaN without
+    /// shares. Collective.
+    ///
+    /// The search needs no sort, and only bin sums travel between ranks. Each
+    /// round divides the range of x into 1024 bins, sums the mass by bin over
+    /// the ranks, and keeps the shares of the bin in which the cumulative mass
+    /// passes the target: three rounds resolve 1e-9 of the range. The search
+    /// ends when all remaining shares, over all ranks, have equal x, so the
+    /// result is exactly the x of a share and does not depend on their
+    /// distribution. mass_below is the mass with x below the range, equal on
+    /// all ranks.
+    double
+    quantile(std::vector<Share> candidates,
+             const double       fraction,
+             const MPI_Comm     communicator)
+    {
+      constexpr unsigned int n_bins = 1024;
+      double                 mass = 0, mass_below = 0;
+      for (const Share &c : candidates)
+        mass += c.mass;
+      // The tolerance is less than the mass of any point and more than the
+      // round-off of the sum: of 200 equal points the 199th always completes
+      // 99.5 %.
+      const double target =
+        (fraction - 1e-12) * Utilities::MPI::sum(mass, communicator);
+
+      while (true)
+        {
+          double lower = std::numeric_limits<double>::max();
+          double upper = std::numeric_limits<double>::lowest();
+          for (const Share &c : candidates)
+            {
+              lower = std::min(lower, c.x);
+              upper = std::max(upper, c.x);
+            }
+          lower = Utilities::MPI::min(lower, communicator);
+          upper = Utilities::MPI::max(upper, communicator);
+          if (!(lower < upper))
+            return lower > upper ? std::numeric_limits<double>::quiet_NaN()
+                                 : upper;
+
+          // The largest x would fall in a bin beyond the last.
+          const auto bin = [&](const Share &c) {
+            const double at = (c.x - lower) / (upper - lower) * n_bins;
+            return std::min(n_bins - 1, static_cast<unsigned int>(at));
+          };
+          std::vector<double> bins(n_bins, 0.);
+          for (const Share &c : candidates)
+            bins[bin(c)] += c.mass;
+          Utilities::MPI::sum(bins, communicator, bins);
+
+          unsigned int b = 0; // by round-off the last one, below the target
+          for (; b + 1 < n_bins && mass_below + bins[b] < target; ++b)
+            mass_below += bins[b];
+          candidates.erase(std::remove_if(candidates.begin(),
+                                          candidates.end(),
+                                          [&](const Share &c) {
+                                            return bin(c) != b;
+                                          }),
+                           candidates.end());
+        }
+    }
+
+
+
+    /// Speed on the background grid that 99.9 % of the mass does not exceed,
+    /// m/s; 0 before the first step. Nodes at the edge of the soil with hardly
+    /// any mass, and a single point, may be arbitrarily fast. Collective.
     template <int dim>
     double
-    maximum_speed(const NodalFields<dim> &nodes)
+    maximum_speed(const State<dim> &state)
     {
-      double square = 0;
-      for (const unsigned int node : nodes.active_nodes())
-        square = std::max(square, nodes.velocity(node).norm_square());
-      return std::sqrt(square);
+      std::vector<Share> nodes;
+      for (const unsigned int node : state.nodes.active_nodes())
+        nodes.push_back(
+          {state.nodes.velocity(node).norm(), state.nodes.mass(node)});
+      const double speed = quantile(nodes, 0.999, state.communicator());
+      return std::isnan(speed) ? 0. : speed;
     }
   } // namespace
 
 
 
-  /// The search needs no sort, and only bin sums travel between ranks. Each
-  /// round divides the range of x into 1024 bins, sums the mass by bin over the
-  /// ranks, and keeps the points of the bin in which the cumulative mass passes
-  /// the target: three rounds resolve 1e-9 of the length of the slide. The
-  /// search ends when all remaining points, over all ranks, have equal x, so
-  /// the result is exactly the x of a point and does not depend on the
-  /// distribution of points. mass_below is the mass with x below the range,
-  /// equal on all ranks.
   template <int dim>
   double
   front_of_mass(const Points<dim> &points,
@@ -143,60 +212,11 @@ namespace talus
                 const double       fraction,
                 const MPI_Comm     communicator)
   {
-    constexpr unsigned int n_bins = 1024;
-    struct Candidate
-    {
-      double x, mass;
-    };
-    std::vector<Candidate> candidates(points.size());
-    double                 mass = 0, mass_below = 0;
+    std::vector<Share> shares(points.size());
     for (unsigned int p = 0; p < points.size(); ++p)
-      {
-        candidates[p] = {points.data(points.position, axis)[p],
-                         points.data(points.mass)[p]};
-        mass += candidates[p].mass;
-      }
-    // The tolerance is less than the mass of any point and more than the
-    // round-off of the sum: of 200 equal points the 199th always completes
-    // 99.5 %.
-    const double target =
-      (fraction - 1e-12) * Utilities::MPI::sum(mass, communicator);
-
-    while (true)
-      {
-        double lower = std::numeric_limits<double>::max();
-        double upper = std::numeric_limits<double>::lowest();
-        for (const Candidate &c : candidates)
-          {
-            lower = std::min(lower, c.x);
-            upper = std::max(upper, c.x);
-          }
-        lower = Utilities::MPI::min(lower, communicator);
-        upper = Utilities::MPI::max(upper, communicator);
-        if (!(lower < upper))
-          return lower > upper ? std::numeric_limits<double>::quiet_NaN()
-                               : upper;
-
-        // The largest x would fall in a bin beyond the last.
-        const auto bin = [&](const Candidate &c) {
-          const double at = (c.x - lower) / (upper - lower) * n_bins;
-          return std::min(n_bins - 1, static_cast<unsigned int>(at));
-        };
-        std::vector<double> bins(n_bins, 0.);
-        for (const Candidate &c : candidates)
-          bins[bin(c)] += c.mass;
-        Utilities::MPI::sum(bins, communicator, bins);
-
-        unsigned int b = 0; // by round-off the last one, below the target
-        for (; b + 1 < n_bins && mass_below + bins[b] < target; ++b)
-          mass_below += bins[b];
-        candidates.erase(std::remove_if(candidates.begin(),
-                                        candidates.end(),
-                                        [&](const Candidate &c) {
-                                          return bin(c) != b;
-                                        }),
-                         candidates.end());
-      }
+      shares[p] = {points.data(points.position, axis)[p],
+                   points.data(points.mass)[p]};
+    return quantile(std::move(shares), fraction, communicator);
   }
 
 
@@ -234,10 +254,7 @@ namespace talus
                        "centre velocity",
                        "m/s",
                        sums.momentum / sums.mass);
-    list.push_back(
-      {"maximum speed",
-       "m/s",
-       Utilities::MPI::max(maximum_speed(state.nodes), state.communicator())});
+    list.push_back({"maximum speed", "m/s", maximum_speed(state)});
     list.push_back({"maximum speed of points", "m/s", sums.maximum_speed});
     list.push_back({"mass", "kg", sums.mass});
     append_vector<dim>(list, "momentum", "kg m/s", sums.momentum);

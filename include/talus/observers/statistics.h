@@ -74,7 +74,7 @@ namespace talus
   ///
   /// - `height [m]` is the maximum height of a centre above the ground.
   /// - `maximum speed [m/s]` belongs to the background grid, without the FLIP
-  ///   noise of the points; 0 before the first step.
+  ///   noise of the points: 99.9 % of the mass is not faster.
   /// - `seabed force x [N]`, ... is the mean force of the seabed on the soil
   ///   since the previous row (0 in the first row); `seabed impulse x [N s]`,
   ///   ... is the impulse since the start. Both are negative while friction

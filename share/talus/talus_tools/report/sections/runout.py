@@ -20,7 +20,7 @@ MEANINGS = {
     "centre x [m]": ("centre of mass, x", "How far the soil went as a whole."),
     "centre velocity x [m/s]": (
         "velocity of the centre of mass", "How fast the soil moves as a whole."),
-    "maximum speed [m/s]": ("largest speed", "Of the nodes of the background grid."),
+    "maximum speed [m/s]": ("largest speed", "On the grid; 99.9 % of the mass is not faster."),
     "maximum speed of points [m/s]": (
         "largest speed of a point", "An upper bound for impacts; single points are noisy, up to "
         "1 m/s in soil at rest."),
@@ -56,7 +56,7 @@ X_CURVES = (
      ("centre x [m]", "centre of mass", {"color": GREY}),
      ("rear x [m]", "rear", {"color": RED})),
     (("centre velocity x [m/s]", "centre of mass, x", {"color": GREY}),
-     ("maximum speed [m/s]", "fastest node", {"color": RED})))
+     ("maximum speed [m/s]", "fastest soil", {"color": RED})))
 
 
 def history(run, table, curves, where):
