@@ -107,14 +107,15 @@ TEST(CapWithDepth, FactorOfSafetyOnASeabed)
 
 
 
-// A bed of two strengths, a surface by name: the mean counts.
+// A bed of two strengths, a surface by name, at every other node: the mean
+// counts.
 TEST(CapWithDepth, FactorOfSafetyOfABedOfTwoStrengths)
 {
   const StaticCase<2> slope(
     "verification/infinite-slope.prm",
     "cap-of-two-strengths",
     {"Surfaces/Names=ratio",
-     "Surfaces/ratio/Expression=if(x < 0.05, 0.5, if(x > 0.05, 1.5, 1))",
+     "Surfaces/ratio/Expression=if(abs(x - 0.05) < 0.02, 1.5, 0.5)",
      "Boundaries/Bottom=seabed",
      "Boundaries/Seabed/Friction coefficient=100",
      "Boundaries/Seabed/Maximum shear stress=4000*depth*ratio",
