@@ -44,7 +44,7 @@ shown = sorted({nearest(times, t) for t in wanted})
 table = statistics(folder)
 window = (10 * numpy.floor(table["rear x [m]"].min() / 10),
           10 * numpy.ceil((table["front x [m]"].max() + 2) / 10), 0, 5.5)
-speeds = (0, numpy.ceil(table["maximum speed [m/s]"].max()))
+speeds = (0, numpy.ceil(table["maximum speed of points [m/s]"].max()))
 strains = (0, 3)
 
 n_rows = len(shown) + 1

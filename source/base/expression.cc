@@ -10,6 +10,7 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <regex>
@@ -295,8 +296,7 @@ namespace talus
     std::string              expected;
     for (const auto *const some : {&names, &other_names})
       for (const std::string &known_name : *some)
-        if (known_name.rfind("unused", 0) != 0 &&
-            std::find(list.begin(), list.end(), known_name) == list.end())
+        if (std::find(list.begin(), list.end(), known_name) == list.end())
           {
             list.push_back(known_name);
             expected += known_name + ", ";
@@ -328,15 +328,23 @@ namespace talus
 
 
 
-    template <int dim>
+    /// Return the place of a value for messages, in words.
     std::string
-    place_and_time(const std::string &variables,
-                   const Point<dim>  &x,
-                   const double       t)
+    place_of(const std::string             &variables,
+             const ArrayView<const double> &values)
     {
-      return variables.back() == 't'
-               ? text(" at (", x, ") m, t = ", t, " s")
-               : text(" with (", variables, ") = (", x, ' ', t, ')');
+      const std::size_t size = variables.size();
+      const bool        has_time =
+        size > 2 && variables.compare(size - 2, 2, ",t") == 0;
+      std::string numbers;
+      for (std::size_t i = 0; i + has_time < values.size(); ++i)
+        numbers += text(i > 0 ? " " : "", values[i]);
+      return has_time ? text(" at (",
+                             numbers,
+                             ") m, t = ",
+                             values[values.size() - 1],
+                             " s")
+                      : text(" with (", variables, ") = (", numbers, ')');
     }
   } // namespace
 
@@ -357,22 +365,38 @@ namespace talus
 
 
 
-  /// An error may depend on position and time, as for the root of a negative
-  /// number: ExcPoint, which also writes the last state.
   template <int dim>
   double
   Expression<dim>::finite_value(const Point<dim>  &x,
                                 const double       t,
                                 const unsigned int component)
   {
-    const double result = value(x, t, component);
+    std::array<double, dim + 1> arguments;
+    std::copy(x.begin_raw(), x.end_raw(), arguments.begin());
+    arguments[dim] = t;
+    return finite_value(ArrayView<const double>(arguments), component);
+  }
+
+
+
+  /// An error may depend on position and time, as for the root of a negative
+  /// number: ExcPoint, which also writes the last state.
+  template <int dim>
+  double
+  Expression<dim>::finite_value(const ArrayView<const double> &arguments,
+                                const unsigned int             component)
+  {
+    Formula &formula = *formulas_[component];
+    AssertDimension(arguments.size(), formula.variables.size());
+    std::copy(arguments.begin(), arguments.end(), formula.variables.begin());
+    const double result = formula.parser.Eval();
     AssertThrow(std::isfinite(result),
                 ExcPoint(text(name_,
                               " = '",
                               expressions_,
                               "' is ",
                               result,
-                              place_and_time(variables_, x, t),
+                              place_of(variables_, arguments),
                               "; expected a finite number. Correct the "
                               "expression.")));
     AssertThrow(std::abs(result) <= largest_value,
@@ -382,7 +406,7 @@ namespace talus
                        expressions_,
                        "' is ",
                        result,
-                       place_and_time(variables_, x, t),
+                       place_of(variables_, arguments),
                        ", which is larger than any quantity in SI units: "
                        "at most ",
                        largest_value,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
 #include <talus/boundaries/bed.h>
 
 #include <limits>
@@ -24,15 +25,22 @@ namespace talus
 
   template <int dim>
   void
-  Bed<dim>::prepare(const Constants &constants)
+  Bed<dim>::prepare(const Constants          &constants,
+                    const SurfaceSource<dim> *surfaces)
   {
     check();
     cap_.reset();
-    if (limits_shear_stress())
-      cap_ = std::make_unique<ShearStressCap<dim>>("'" + section_ +
-                                                     "/Maximum shear stress'",
-                                                   maximum_shear_stress_text_,
-                                                   constants);
+    if (!limits_shear_stress())
+      return;
+    std::vector<typename Surface<dim>::Named> named;
+    if (surfaces != nullptr)
+      named = surfaces->named();
+    cap_.emplace("'" + section_ + "/Maximum shear stress'",
+                 maximum_shear_stress_text_,
+                 constants,
+                 named);
+    if (cap_->number())
+      maximum_shear_stress({}); // throws here if it is negative
   }
 
 
@@ -41,7 +49,21 @@ namespace talus
   double
   Bed<dim>::maximum_shear_stress(const Point<dim> &x) const
   {
-    return cap_ ? cap_->at(x) : std::numeric_limits<double>::infinity();
+    if (!cap_)
+      return std::numeric_limits<double>::infinity();
+    const double value = cap_->at(x);
+    AssertThrow(value >= 0.,
+                ExcUser(text("'",
+                             section_,
+                             "/Maximum shear stress' = ",
+                             maximum_shear_stress_text_,
+                             " is ",
+                             value,
+                             " Pa",
+                             cap_->number() ? "" : text(" at (", x, ") m"),
+                             ", but a shear stress that resists sliding cannot "
+                             "be negative. Correct the value.")));
+    return value;
   }
 
 

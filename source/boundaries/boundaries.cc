@@ -456,11 +456,12 @@ namespace talus
   // may stand anywhere in the file.
   template <int dim>
   void
-  Boundaries<dim>::parse(const Constants &constants)
+  Boundaries<dim>::parse(const Constants          &constants,
+                         const SurfaceSource<dim> *surfaces)
   {
     for (unsigned int face = 0; face < 2 * dim; ++face)
       check_expressions(face);
-    seabed_.prepare(constants);
+    seabed_.prepare(constants, surfaces);
     AssertThrow(has_seabed() || !seabed_.softens(),
                 ExcUser("'Boundaries/Seabed/Slip to remould' is given, but no "
                         "face of the mesh is a seabed. Give the entry in the "

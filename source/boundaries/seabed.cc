@@ -8,8 +8,9 @@ namespace talus
     : Bed<dim>("/Boundaries/Seabed",
                "1000",
                "Maximum shear stress tau_max that the seabed passes to the "
-               "soil [Pa]: a number, or an expression in x, y (, z) and depth, "
-               "the depth of the place below the mudline at the start [m], 0 "
+               "soil [Pa]: a number, or an expression in x, y (, z), the names "
+               "of surfaces and depth, the depth of the place below the "
+               "mudline at the start [m], 0 "
                "without soil above.")
   {
     this->add_parameter(

@@ -21,7 +21,8 @@ namespace talus
            "",
            "Maximum shear stress that the surface passes to the soil [Pa]: a "
            "number, or an expression in x, y (, z), the place at the start, "
-           "and, for an obstacle at rest, in depth, the depth of the place "
+           "the names of surfaces, and, for an obstacle at rest, in depth, the "
+           "depth of the place "
            "below the mudline at the start [m], 0 without soil above. Empty: "
            "no limit.")
     , body_(name)
@@ -80,7 +81,7 @@ namespace talus
         everywhere.lower[d] = -everywhere.upper[d];
       }
     shape_ = shape_parameters_.make(everywhere);
-    bed_.prepare(constants);
+    bed_.prepare(constants, surfaces);
     velocity_.reset();
     if (!velocity_text_.empty())
       velocity_ = std::make_unique<Expression<dim>>(path("Velocity"),

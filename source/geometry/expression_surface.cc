@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/base/errors.h>
 #include <talus/geometry/expression_surface.h>
 
 #include <boost/functional/hash.hpp>
@@ -13,26 +12,6 @@ namespace talus
 
   namespace
   {
-    /// Return the names of the four variables of a deal.II function: three
-    /// coordinates and the time.
-    template <int dim>
-    std::string
-    variables(const std::vector<typename ExpressionSurface<dim>::Named> &others)
-    {
-      std::string  names = dim == 2 ? "x" : "x,z";
-      unsigned int n     = dim - 1;
-      for (const auto &other : others)
-        {
-          names += "," + other.first;
-          ++n;
-        }
-      for (; n < 4; ++n)
-        names += text(",unused_", n);
-      return names;
-    }
-
-
-
     /// Return the result in @p table for @p key; compute the result if it is
     /// not in the table. Memory stays small where points move and ask for ever
     /// new places, and no memory is allocated in a step.
@@ -53,38 +32,16 @@ namespace talus
 
 
   template <int dim>
-  ExpressionSurface<dim>::ExpressionSurface(
-    const std::string              &path,
-    const std::string              &expression,
-    const Constants                &constants,
-    const std::vector<Named>       &others,
-    const std::vector<std::string> &names)
-    : others_(others)
-  {
-    AssertThrow(
-      others.size() <= n_others,
-      ExcUser(text(path,
-                   " = '",
-                   expression,
-                   "' names ",
-                   others.size(),
-                   " surfaces, but at most ",
-                   n_others,
-                   " are possible in an expression. Define a part of the "
-                   "expression as a named surface in the section Surfaces.")));
-    expression_ = std::make_unique<Expression<3>>(
-      path, expression, 1, constants, variables<dim>(others), names);
-  }
-
-
-
-  template <int dim>
-  double
-  ExpressionSurface<dim>::evaluate(const Arguments &arguments) const
-  {
-    return expression_->finite_value(
-      Point<3>(arguments[0], arguments[1], arguments[2]), arguments[3], 0);
-  }
+  ExpressionSurface<dim>::ExpressionSurface(const std::string &path,
+                                            const std::string &expression,
+                                            const Constants   &constants,
+                                            const std::vector<Named> &known)
+    : expression_(path,
+                  expression,
+                  constants,
+                  known,
+                  PlaceExpression<dim>::Variables::plan)
+  {}
 
 
 
@@ -92,13 +49,7 @@ namespace talus
   double
   ExpressionSurface<dim>::height(const Point<dim> &x) const
   {
-    Arguments    arguments{};
-    unsigned int n = 0;
-    for (unsigned int d = 0; d < dim; d += 2)
-      arguments[n++] = x[d];
-    for (const Named &other : others_)
-      arguments[n++] = other.second->height(x);
-    return evaluate(arguments);
+    return expression_.at(x);
   }
 
 
@@ -122,32 +73,32 @@ namespace talus
   typename ExpressionSurface<dim>::Value
   ExpressionSurface<dim>::compute_value(const Point<dim> &x) const
   {
-    Arguments                     arguments{};
-    std::array<Tensor<1, dim>, 4> slopes; // of the arguments
-    unsigned int                  n = 0;
+    typename PlaceExpression<dim>::Arguments                  arguments;
+    boost::container::small_vector<dealii::Tensor<1, dim>, 8> slopes;
     for (unsigned int d = 0; d < dim; d += 2)
       {
-        arguments[n]   = x[d];
-        slopes[n++][d] = 1.;
+        arguments.push_back(x[d]);
+        slopes.emplace_back()[d] = 1.;
       }
-    for (const Named &other : others_)
+    for (const Named &other : expression_.surfaces())
       {
         const Value value = other.second->at(x);
-        arguments[n]      = value.height;
-        slopes[n++]       = value.slope;
+        arguments.push_back(value.height);
+        slopes.push_back(value.slope);
       }
     // Small enough to resolve slopes of millimetre features of flumes to 1e-4,
     // and large enough to resolve slopes of heights of kilometres to 1e-7. Only
     // two evaluations, because contact evaluates surfaces in each step.
     constexpr double step = 1e-5;
-    Value            result{evaluate(arguments), {}};
-    for (unsigned int i = 0; i < n; ++i)
+    Value            result{expression_.evaluate(arguments), {}};
+    for (unsigned int i = 0; i < arguments.size(); ++i)
       {
-        Arguments after = arguments, before = arguments;
+        auto after = arguments, before = arguments;
         after[i] += step;
         before[i] -= step;
-        result.slope += (evaluate(after) - evaluate(before)) /
-                        (after[i] - before[i]) * slopes[i];
+        result.slope +=
+          (expression_.evaluate(after) - expression_.evaluate(before)) /
+          (after[i] - before[i]) * slopes[i];
       }
     return result;
   }
@@ -158,8 +109,8 @@ namespace talus
   bool
   ExpressionSurface<dim>::is_known_at(const Point<dim> &x) const
   {
-    return std::all_of(others_.begin(),
-                       others_.end(),
+    return std::all_of(expression_.surfaces().begin(),
+                       expression_.surfaces().end(),
                        [&x](const Named &other) {
                          return other.second->is_known_at(x);
                        });

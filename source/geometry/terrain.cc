@@ -56,7 +56,7 @@ namespace talus
                              "('Grid/Origin', 'Section'), or fill the raster "
                              "(gdal_fillnodata.py). A raster in degrees needs "
                              "a `Projection`.")));
-    Value result{value->height - plan_.height(), {}};
+    Value result{value->height - (map.has_heights ? plan_.height() : 0.), {}};
     for (unsigned int d = 0; d < dim; ++d)
       result.slope[d] = value->slope * place.axes[d];
     return result;

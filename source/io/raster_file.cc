@@ -41,11 +41,14 @@ namespace talus
 
 
     /// Return the unit of the heights, m: of the values or of the vertical
-    /// axis, which is removed from the coordinate system.
+    /// axis, which is removed from the coordinate system. Return 1 for another
+    /// quantity.
     double
     unit_of_heights(const std::filesystem::path &file, Raster &raster)
     {
-      const double axis   = strip_vertical_axis(raster.coordinate_system);
+      const double axis = strip_vertical_axis(raster.coordinate_system);
+      if (!raster.has_heights)
+        return 1.;
       const double stated = length_of_unit(raster.unit);
       const auto   check  = [&file](const bool success, const auto &...words) {
         AssertThrow(success,
@@ -74,15 +77,16 @@ namespace talus
 
     /// Return whether a number of the file, in units of @p unit, m, marks cells
     /// without a datum, though the file does not declare the mark, and would be
-    /// taken for a height: a customary mark, or a height that no place has. The
+    /// taken for a datum: a customary mark, or a height that no place has. The
     /// deepest place of the Earth has -10 935 m.
     bool
-    is_mark(const double number, const double unit)
+    is_mark(const double number, const double unit, const bool is_height)
     {
       for (const double customary : {-9999., 9999., 32767., 99999.})
         if (number == customary)
           return true;
-      return number * unit < -12e3 || number * unit > 1e6;
+      return is_height ? number * unit < -12e3 || number * unit > 1e6
+                       : std::abs(number) > 1e30;
     }
 
 
@@ -99,15 +103,16 @@ namespace talus
                           "' has no value at the mesh. Give another raster, or "
                           "move the mesh ('Grid/Origin', 'Section')."));
       for (const double mark : {lowest, highest})
-        AssertThrow(!is_mark(mark, unit),
+        AssertThrow(!is_mark(mark, unit, raster.has_heights),
                     ExcUser(
                       text("The raster '",
                            file.string(),
-                           "' has heights from ",
+                           raster.has_heights ? "' has heights from "
+                                              : "' has numbers from ",
                            lowest * unit,
                            " to ",
                            highest * unit,
-                           " m: is ",
+                           raster.has_heights ? " m: is " : ": is ",
                            shortest(mark),
                            " a value for no data that the raster does "
                            "not declare? Declare the value: nodata_value ",
@@ -153,7 +158,9 @@ namespace talus
 
 
   Raster
-  read_raster(const std::filesystem::path &file, const RasterPart &part)
+  read_raster(const std::filesystem::path &file,
+              const RasterPart            &part,
+              const bool                   has_heights)
   {
     check_readable(file);
     const RasterPart placed = [&](Raster whole) {
@@ -166,8 +173,9 @@ namespace talus
         }
       return part(whole);
     };
-    Raster       raster = read_gdal_raster(file, placed);
-    const double unit   = unit_of_heights(file, raster);
+    Raster raster      = read_gdal_raster(file, placed);
+    raster.has_heights = has_heights;
+    const double unit  = unit_of_heights(file, raster);
     check_magnitudes(file, raster, unit);
     if (unit != 1.)
       for (double &height : raster.values)

@@ -15,7 +15,12 @@ namespace talus
     const auto settings = std::make_shared<MapSettings>();
     const auto list     = std::make_shared<StationList<dim>>();
     output.add_field_observer(std::make_unique<Maps<dim>>(problem, settings));
-    output.add_row_observer(std::make_unique<Runout<dim>>(problem.origin()));
+    auto runout = std::make_unique<Runout<dim>>(problem.origin());
+    output.set_thick_soil(
+      [&runout = *runout](const State<dim> &state, Quantities &list) {
+        runout.list_thick_soil(state, list);
+      });
+    output.add_row_observer(std::move(runout));
     output.add_row_observer(std::make_unique<Stations<dim>>(problem, list));
     output.add_field_observer(
       std::make_unique<Lines<dim>>(problem, settings, list));

@@ -2,6 +2,7 @@
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/maps/runout.h>
+#include <talus/observers/boxes.h>
 #include <talus/terrain/plan_place.h>
 
 #include <deal.II/base/mpi.h>
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace talus
 {
@@ -88,6 +90,30 @@ namespace talus
                      const State<dim>     &state,
                      const Beginning       beginning)
   {
+    user_path_ = settings_.corners(dim, origin_);
+    TableObserver<dim>::begin(settings, state, beginning);
+  }
+
+
+
+  /// Sum the soil over columns as wide as a cell; the sums are on the first
+  /// rank. The statistics may ask for them before begin().
+  template <int dim>
+  void
+  Runout<dim>::sum_columns(const State<dim> &state)
+  {
+    if (!sums_)
+      make_sums(state);
+    sums_->sum_soil(state);
+    sums_->sum_over_ranks(state.communicator());
+  }
+
+
+
+  template <int dim>
+  void
+  Runout<dim>::make_sums(const State<dim> &state)
+  {
     const Box<dim> domain = state.grid.domain_before_growth();
     const double   h      = state.grid.cell_size();
     std::array<typename LatticeColumns<dim>::Axis, dim - 1> axes;
@@ -102,8 +128,78 @@ namespace talus
       }
     sums_ = std::make_unique<ColumnSums<dim>>(
       std::make_shared<LatticeColumns<dim>>(axes));
-    user_path_ = settings_.corners(dim, origin_);
-    TableObserver<dim>::begin(settings, state, beginning);
+  }
+
+
+
+  /// Return the outer edges, along x (and z), of the columns with thick soil,
+  /// m; the box is empty without. Collective.
+  template <int dim>
+  Box<dim>
+  Runout<dim>::thick_columns(const State<dim> &state) const
+  {
+    const double h     = state.grid.cell_size();
+    const double least = settings_.smallest_thickness(h);
+    Box<dim>     box;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        box.lower[d] = std::numeric_limits<double>::max();
+        box.upper[d] = std::numeric_limits<double>::lowest();
+      }
+    if (is_first_rank(state.communicator()))
+      for (const unsigned int column : sums_->with_soil())
+        if (sums_->thickness(column) >= least)
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const double x = sums_->columns().centre(column)[d];
+              box.lower[d]   = std::min(box.lower[d], x - 0.5 * h);
+              box.upper[d]   = std::max(box.upper[d], x + 0.5 * h);
+            }
+    return Utilities::MPI::broadcast(state.communicator(), box);
+  }
+
+
+
+  // The boxes are finer than the columns, which only tell thick soil from thin.
+  template <int dim>
+  void
+  Runout<dim>::list_thick_soil(const State<dim> &state, Quantities &list)
+  {
+    sum_columns(state);
+    const Box<dim>     columns = thick_columns(state);
+    Box<dim>           ends{columns.upper, columns.lower};
+    const Points<dim> &points = state.points;
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        const auto lengths = box_lengths(state, p);
+        for (unsigned int d = 0; d < dim; d += 2)
+          {
+            const double x     = points.data(points.position, d)[p],
+                         lower = x - 0.5 * lengths[d],
+                         upper = x + 0.5 * lengths[d];
+            if (lower < columns.upper[d] && upper > columns.lower[d])
+              {
+                ends.upper[d] =
+                  std::max(ends.upper[d], std::min(upper, columns.upper[d]));
+                ends.lower[d] =
+                  std::min(ends.lower[d], std::max(lower, columns.lower[d]));
+              }
+          }
+      }
+    for (unsigned int d = 0; d < dim; d += 2)
+      {
+        const bool   exists = columns.lower[d] < columns.upper[d];
+        const double front =
+          Utilities::MPI::max(ends.upper[d], state.communicator());
+        const double rear =
+          Utilities::MPI::min(ends.lower[d], state.communicator());
+        const double      none = std::numeric_limits<double>::quiet_NaN();
+        const std::string axis(1, "xyz"[d]);
+        list.push_back(
+          {"front of thick soil " + axis, "m", exists ? front : none});
+        list.push_back(
+          {"rear of thick soil " + axis, "m", exists ? rear : none});
+      }
   }
 
 
@@ -162,8 +258,7 @@ namespace talus
     const Centre centre = centre_of_mass(state);
     way_                = {centre.place};
     mass_at_start_      = centre.mass;
-    sums_->sum_soil(state);
-    sums_->sum_over_ranks(state.communicator());
+    sum_columns(state);
     release_.clear();
     const double least = settings_.smallest_thickness(state.grid.cell_size());
     if (is_first_rank(state.communicator()))
@@ -262,8 +357,7 @@ namespace talus
   Runout<dim>::observe(const State<dim> &state)
   {
     const Centre centre = centre_of_mass(state);
-    sums_->sum_soil(state);
-    sums_->sum_over_ranks(state.communicator());
+    sum_columns(state);
     if (is_first_rank(state.communicator()))
       this->add_rows(state, {row(state, centre)});
     extend_way(centre, state.grid.cell_size());

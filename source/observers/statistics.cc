@@ -14,14 +14,14 @@ namespace talus
 
   namespace
   {
-    /// Impulse of the seabed on the soil along x since the start of the run, N
-    /// s. Collective.
+    /// Impulse of the seabed on the soil since the start of the run, N s.
+    /// Collective.
     template <int dim>
-    double
+    Tensor<1, dim>
     impulse(const State<dim> &state)
     {
-      return dealii::Utilities::MPI::sum(
-        state.accounts.impulse("seabed impulse")[0], state.communicator());
+      return Utilities::MPI::sum(state.accounts.impulse("seabed impulse"),
+                                 state.communicator());
     }
   } // namespace
 
@@ -45,12 +45,14 @@ namespace talus
   SeabedForce<dim>::list_quantities(const State<dim> &state,
                                     Quantities       &list) const
   {
-    const double now      = impulse(state);
-    const double interval = state.time - previous_time_;
-    list.push_back({"seabed force x",
-                    "N",
-                    interval > 0 ? (now - previous_impulse_) / interval : 0.});
-    list.push_back({"seabed impulse x", "N s", now});
+    const Tensor<1, dim> now      = impulse(state);
+    const double         interval = state.time - previous_time_;
+    append_vector<dim>(list,
+                       "seabed force",
+                       "N",
+                       interval > 0 ? (now - previous_impulse_) / interval
+                                    : Tensor<1, dim>());
+    append_vector<dim>(list, "seabed impulse", "N s", now);
   }
 
 
@@ -62,10 +64,11 @@ namespace talus
   SeabedForce<dim>::list_state(StateList &list)
   {
     list.add("time of the last row", "s", previous_time_, Reduction::equal);
-    list.add("seabed impulse at the last row",
-             "N s",
-             previous_impulse_,
-             Reduction::equal);
+    list.add_components("seabed impulse at the last row",
+                        "N s",
+                        previous_impulse_,
+                        dim,
+                        Reduction::equal);
   }
 
 
@@ -212,6 +215,8 @@ namespace talus
                              {"time step", "s", state.time_step}};
     const Ground<dim> ground(state.grid.domain(), obstacles_);
     list_motion(state, ground, with_runout, row);
+    if (with_runout && thick_soil_)
+      thick_soil_(state, row);
     seabed_force_.list_quantities(state, row);
     const Quantities energies = budget_.evaluate(state);
     row.insert(row.end(), energies.begin(), energies.end());

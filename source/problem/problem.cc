@@ -72,8 +72,9 @@ namespace talus
                           trigger.changes_strength() || changes_strength);
     trigger.add_columns(points);
     loading.prepare(materials, bodies_.size(), inputs_.constants, end_time);
-    contact.slip().set_region(trigger.seabed_region(inputs_.constants));
-    boundaries.parse(inputs_.constants);
+    contact.slip().set_region(
+      trigger.seabed_region(inputs_.constants, inputs_.surfaces.named()));
+    boundaries.parse(inputs_.constants, &inputs_.surfaces);
     hydroplaning.check();
     obstacles.prepare(inputs_.constants, &inputs_.surfaces);
   }
@@ -139,7 +140,10 @@ namespace talus
     look_at_geometry(state);
     if (bodies_.may_leave_cells())
       send_points_to_owners(points, state.grid);
-    trigger.choose_points(points, inputs_.constants, state.communicator());
+    trigger.choose_points(points,
+                          inputs_.constants,
+                          inputs_.surfaces.named(),
+                          state.communicator());
     trigger.check_seabed_region(
       Utilities::MPI::sum(contact.slip().n_triggered(), state.communicator()));
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/geometry/place_expression.h>
 #include <talus/problem/mudline.h>
 #include <talus/problem/strength_field.h>
 #include <talus/problem/time_table.h>
@@ -87,67 +88,65 @@ namespace talus
 
 
 
-    /// Strength of a material as a function of place and depth, including the
-    /// random field.
+    /// Strength of a material as a function of place, depth and surfaces,
+    /// including the random field.
     template <int dim>
     class StrengthField
     {
     public:
-      StrengthField(const std::string           &path,
-                    const UndrainedStrength     &strength,
-                    const Constants             &constants,
-                    const std::filesystem::path &folder)
+      StrengthField(const std::string       &path,
+                    const UndrainedStrength &strength,
+                    const Inputs<dim>       &inputs,
+                    const Mudline<dim>      &mudline)
         : path_(path)
-        , number_(strength.number())
+        , mudline_(mudline)
       {
         if (const std::string table = strength.table(); !table.empty())
-          table_ = strength_table(folder / table);
-        else if (!number_)
-          expression_ =
-            std::make_unique<Expression<dim>>(path,
-                                              strength.words(),
-                                              1,
-                                              constants,
-                                              dim == 2 ? "x,y,depth"
-                                                       : "x,y,z,depth");
+          table_ = strength_table(inputs.folder / table);
+        else
+          expression_.emplace(path,
+                              strength.words(),
+                              inputs.constants,
+                              inputs.surfaces.named());
+        if (expression_)
+          expression_->set_depth(
+            [this](const Point<dim> &x) { return mudline_.depth(x); });
         if (strength.variation().is_active())
           variation_.emplace(strength.variation());
       }
 
+      // The expression refers to this object.
+      StrengthField(const StrengthField &) = delete;
+
       /// Return the strength at @p x, Pa. Throws ExcUser if it is not positive,
       /// unless the user gave the number 0.
       double
-      at(const Point<dim> &x, const Mudline<dim> &mudline)
+      at(const Point<dim> &x) const
       {
-        const double depth    = number_ ? 0. : mudline.depth(x);
-        double       strength = 0.;
-        if (number_)
-          strength = *number_;
-        else if (table_)
-          strength = table_->value(0, depth);
-        else
-          strength = expression_->finite_value(x, depth, 0);
+        double strength =
+          table_ ? table_->value(0, mudline_.depth(x)) : expression_->at(x);
         if (variation_)
           strength *= (*variation_)(x);
-        AssertThrow(strength > 0. || (number_ && strength == 0.),
+        AssertThrow(strength > 0. ||
+                      (strength == 0. && expression_ && expression_->number()),
                     ExcUser(text(path_,
                                  " is ",
                                  strength,
                                  " Pa at (",
                                  x,
                                  ") m, ",
-                                 mudline.depth(x),
+                                 mudline_.depth(x),
                                  " m below the mudline. Soil needs a positive "
                                  "strength: change it.")));
         return strength;
       }
 
     private:
-      std::string                      path_;
-      std::optional<double>            number_;
-      std::optional<TimeTable>         table_;
-      std::unique_ptr<Expression<dim>> expression_;
-      std::optional<RandomField<dim>>  variation_;
+      std::string                         path_;
+      const Mudline<dim>                 &mudline_;
+      std::optional<TimeTable>            table_;
+      std::optional<PlaceExpression<dim>> expression_; ///< unless a table
+      std::optional<RandomField<dim>>     variation_;
     };
   } // namespace
 
@@ -174,14 +173,14 @@ namespace talus
           continue;
         const std::string path =
           "'" + material.section().substr(1) + "/Undrained shear strength'";
-        StrengthField<dim> field(path,
-                                 *material.undrained_strength(),
-                                 inputs.constants,
-                                 inputs.folder);
+        const StrengthField<dim> field(path,
+                                       *material.undrained_strength(),
+                                       inputs,
+                                       mudline);
         for (unsigned int p = 0; p < points.size(); ++p)
           if (points.data(points.body)[p] == b)
             points.data(column)[p] =
-              field.at(load_place(points, points.initial_position, p), mudline);
+              field.at(load_place(points, points.initial_position, p));
         material.check_strength(
           materials.strength_range(points, b, communicator));
       }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/geometry/place_expression.h>
 #include <talus/problem/trigger.h>
 
 #include <deal.II/base/numbers.h>
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 namespace talus
 {
@@ -43,26 +43,28 @@ namespace talus
                   names_of_bodies_,
                   "Names of the bodies whose soil becomes weaker, separated by "
                   "commas; empty: all whose law has a strength.");
-    add_parameter("Region",
-                  region_,
-                  "Expression in x, y (, z), positive where the soil of the "
-                  "bodies becomes weaker, for instance 0.5 - y for a weak "
-                  "layer; x, y, z is the initial place, without initial "
-                  "displacement. Empty: everywhere.");
+    add_parameter(
+      "Region",
+      region_,
+      "Expression in x, y (, z) and surfaces, positive where the soil of the "
+      "bodies becomes weaker, for instance 0.5 - y for a weak "
+      "layer; x, y, z is the initial place, without initial "
+      "displacement. Empty: everywhere.");
     add_fraction("Seabed shear stress fraction",
                  seabed_fraction_,
                  "Fraction of `Maximum shear stress` of the seabed and of "
                  "obstacles that remains in the end [-]; friction "
                  "coefficients stay. 1: no reduction.");
-    add_parameter("Seabed region",
-                  seabed_region_,
-                  "Expression in x, y (, z), positive where seabed and "
-                  "obstacles are brought to the fraction 'Seabed shear stress "
-                  "fraction', for instance 20 - abs(x) for a weak zone; a "
-                  "surface that softens by slip keeps there the smaller of the "
-                  "fraction and the share left by slip. Empty: the fraction "
-                  "multiplies the maximum shear stress everywhere, also what "
-                  "slip has left.");
+    add_parameter(
+      "Seabed region",
+      seabed_region_,
+      "Expression in x, y (, z) and surfaces, positive where seabed and "
+      "obstacles are brought to the fraction 'Seabed shear stress "
+      "fraction', for instance 20 - abs(x) for a weak zone; a "
+      "surface that softens by slip keeps there the smaller of the "
+      "fraction and the share left by slip. Empty: the fraction "
+      "multiplies the maximum shear stress everywhere, also what "
+      "slip has left.");
   }
 
 
@@ -178,26 +180,24 @@ namespace talus
   void
   Trigger<dim>::choose_points(Points<dim>     &points,
                               const Constants &constants,
+                              const Surfaces  &surfaces,
                               const MPI_Comm   communicator) const
   {
     if (!changes_strength())
       return;
-    Expression<dim> region("'Trigger/Region'",
-                           // Without a region everywhere.
-                           region_.empty() ? "1" : region_,
-                           1,
-                           constants,
-                           // Points are chosen once, at t = 0.
-                           dim == 2 ? "x,y,unused_t" : "x,y,z,unused_t");
-    double          n_weakened = 0;
+    const PlaceExpression<dim> region("'Trigger/Region'",
+                                      // Without a region everywhere.
+                                      region_.empty() ? "1" : region_,
+                                      constants,
+                                      surfaces,
+                                      PlaceExpression<dim>::Variables::space);
+    double                     n_weakened = 0;
     for (unsigned int p = 0; p < points.size(); ++p)
       {
         const unsigned int body = points.data(points.body)[p];
         const bool         is_weakened =
           weakens_body_[body] &&
-          region.finite_value(load_place(points, points.initial_position, p),
-                              0.,
-                              0) > 0.;
+          region.at(load_place(points, points.initial_position, p)) > 0.;
         points.data(weakened_)[p] = is_weakened;
         n_weakened += is_weakened;
       }
@@ -213,21 +213,17 @@ namespace talus
 
   template <int dim>
   BedRegion<dim>
-  Trigger<dim>::seabed_region(const Constants &constants) const
+  Trigger<dim>::seabed_region(const Constants &constants,
+                              const Surfaces  &surfaces) const
   {
     if (seabed_region_.empty())
       return {};
-    const auto expression =
-      std::make_shared<Expression<dim>>("'Trigger/Seabed region'",
-                                        seabed_region_,
-                                        1,
-                                        constants,
-                                        // A region does not change in time.
-                                        dim == 2 ? "x,y,unused_t"
-                                                 : "x,y,z,unused_t");
-    return [expression](const Point<dim> &x) {
-      return expression->finite_value(x, 0., 0) > 0.;
-    };
+    const PlaceExpression<dim> region("'Trigger/Seabed region'",
+                                      seabed_region_,
+                                      constants,
+                                      surfaces,
+                                      PlaceExpression<dim>::Variables::space);
+    return [region](const Point<dim> &x) { return region.at(x) > 0.; };
   }
 
 

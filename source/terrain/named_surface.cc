@@ -42,6 +42,16 @@ namespace talus
                   "Name of a number of each polygon of `File`, such as its "
                   "depth: the surface has the number of the nearest polygon "
                   "in place of the distance from the outline.");
+    add_parameter("Quantity",
+                  quantity_,
+                  "'height': `File` has heights, converted to metres and, in "
+                  "the mesh, counted from the height of 'Grid/Origin'. "
+                  "'other': a shear strength, a thickness, a ratio, for "
+                  "expressions such as `Undrained shear strength`; the numbers "
+                  "stay as they are, in the unit of the file: strengths and "
+                  "stresses in Pa.",
+                  this->prm,
+                  Patterns::Selection("height|other"));
     add_parameter("Projection",
                   projection_,
                   "Map in metres to which the file is projected on reading, "
@@ -171,19 +181,23 @@ namespace talus
                              "there is a `Projection`. Remove the entry.")));
     const std::string map = this->map();
     protect_input(file);
-    Raster raster = read_raster(file, [&](const Raster &whole) {
-      AssertThrow(whole.n_columns >= 2 && whole.n_rows >= 2,
-                  ExcUser(text("The raster '",
-                               file_,
-                               "' has ",
-                               whole.n_rows,
-                               " rows and ",
-                               whole.n_columns,
-                               " columns, but a surface needs two of both.")));
-      if (map.empty())
-        check_in_metres(file, whole);
-      return part_around(whole, plan, map);
-    });
+    Raster raster = read_raster(
+      file,
+      [&](const Raster &whole) {
+        AssertThrow(whole.n_columns >= 2 && whole.n_rows >= 2,
+                    ExcUser(
+                      text("The raster '",
+                           file_,
+                           "' has ",
+                           whole.n_rows,
+                           " rows and ",
+                           whole.n_columns,
+                           " columns, but a surface needs two of both.")));
+        if (map.empty())
+          check_in_metres(file, whole);
+        return part_around(whole, plan, map);
+      },
+      has_heights());
     return map.empty()
              ? raster
              : project_raster(std::move(raster),
@@ -261,6 +275,10 @@ namespace talus
                              attribute_,
                              "', a field of the polygons of a `File`, but "
                              "there is none. Remove the entry.")));
+    AssertThrow(has_heights() || has_file(),
+                ExcUser(text(path("Quantity"),
+                             " is 'other', which is for the raster of a "
+                             "`File`, but there is none. Remove the entry.")));
     AssertThrow(coordinates_ == "mesh" || !outline_.empty(),
                 ExcUser(text(path("Coordinates"),
                              " is '",
@@ -333,6 +351,7 @@ namespace talus
                              "' is a raster. Remove the entry.")));
     const auto corners = section();
     Raster     raster = read_file(file(folder), plan_of(mesh, origin, corners));
+    raster.has_heights = has_heights(); // not kept by a projection
     smooth(raster, cell_size);
     return std::make_shared<Terrain<dim>>(std::make_shared<const HeightField>(
                                             std::move(raster)),

@@ -43,40 +43,23 @@ namespace talus
 
 
 
-    /// Return the words of an expression, with names of surfaces among them.
-    std::set<std::string>
-    words_of(const std::string &expression)
-    {
-      std::set<std::string> words;
-      std::string           word;
-      for (const char c : expression + ' ')
-        if (is_part_of_name(c))
-          word += c;
-        else
-          {
-            words.insert(word);
-            word.clear();
-          }
-      return words;
-    }
-
-
-
     /// Check a name: in expressions a name must be a single word without
     /// another meaning.
     void
     check_name(const std::string &name)
     {
-      static const std::set<std::string> taken = {"x", "y", "z", "t", "pi"};
+      static const std::set<std::string> taken = {
+        "x", "y", "z", "t", "pi", "depth"};
       AssertThrow(
         !name.empty() && !std::isdigit(name[0]) &&
           std::all_of(name.begin(), name.end(), is_part_of_name) &&
           taken.count(name) == 0,
-        ExcUser(text("'Surfaces/Names' lists '",
-                     name,
-                     "', where a word of letters, digits and '_' was expected, "
-                     "for use in expressions, except x, y, z, t, pi. Choose "
-                     "another name.")));
+        ExcUser(
+          text("'Surfaces/Names' lists '",
+               name,
+               "', where a word of letters, digits and '_' was expected, "
+               "for use in expressions, except x, y, z, t, pi, depth. Choose "
+               "another name.")));
     }
   } // namespace
 
@@ -121,19 +104,13 @@ namespace talus
   Surfaces<dim>::surface(const std::string &path,
                          const std::string &expression) const
   {
-    std::vector<typename ExpressionSurface<dim>::Named> others;
-    const auto               words = words_of(expression);
-    std::vector<std::string> names;
-    for (const auto &known : surfaces_)
-      {
-        names.push_back(known.first);
-        if (expression == known.first)
-          return known.second;
-        if (words.count(known.first) > 0)
-          others.push_back(known);
-      }
-    return std::make_shared<ExpressionSurface<dim>>(
-      path, expression, *constants_, others, names);
+    for (const auto &[name, surface] : surfaces_)
+      if (expression == name)
+        return surface;
+    return std::make_shared<ExpressionSurface<dim>>(path,
+                                                    expression,
+                                                    *constants_,
+                                                    surfaces_);
   }
 
 
@@ -217,37 +194,36 @@ namespace talus
       if (const Raster *map = raster(named->name()))
         {
           const auto [lowest, highest] = range_of(map->values);
-          result.push_back(text("The raster of ",
-                                named->path("File"),
-                                named->projection().empty()
-                                  ? " was read"
-                                  : " was projected to ",
-                                named->projection(),
-                                ": ",
-                                map->n_columns,
-                                " x ",
-                                map->n_rows,
-                                " cells of ",
-                                map->dx,
-                                " m, easting from ",
-                                map->west,
-                                " m to ",
-                                map->east(),
-                                " m, northing from ",
-                                map->south,
-                                " m to ",
-                                map->north(),
-                                " m, heights from ",
-                                lowest,
-                                " m to ",
-                                highest,
-                                map->smoothed_over == 0.
-                                  ? " m."
-                                  : text(" m, smoothed over the smallest cells "
-                                         "of the mesh, ",
-                                         map->smoothed_over,
-                                         " m, which cannot follow smaller "
-                                         "forms.")));
+          result.push_back(text(
+            "The raster of ",
+            named->path("File"),
+            named->projection().empty() ? " was read" : " was projected to ",
+            named->projection(),
+            ": ",
+            map->n_columns,
+            " x ",
+            map->n_rows,
+            " cells of ",
+            map->dx,
+            " m, easting from ",
+            map->west,
+            " m to ",
+            map->east(),
+            " m, northing from ",
+            map->south,
+            " m to ",
+            map->north(),
+            map->has_heights ? " m, heights [m] from " : " m, numbers from ",
+            lowest,
+            " to ",
+            highest,
+            map->smoothed_over == 0.
+              ? "."
+              : text(", smoothed over the smallest cells "
+                     "of the mesh, ",
+                     map->smoothed_over,
+                     " m, which cannot follow smaller "
+                     "forms.")));
         }
     return result;
   }
@@ -263,9 +239,10 @@ namespace talus
       {
         const Surface<dim> &surface = *surfaces_[k].second;
         Point<dim>          begin, end;
-        begin[0] = from;
-        end[0]   = to;
-        if (raster(named_[k]->name()) == nullptr ||
+        begin[0]                = from;
+        end[0]                  = to;
+        const Raster *const map = raster(named_[k]->name());
+        if (map == nullptr || !map->has_heights ||
             !surface.is_known_at(begin) || !surface.is_known_at(end))
           continue;
         const double first = surface.at(begin).height,

@@ -107,6 +107,27 @@ TEST(CapWithDepth, FactorOfSafetyOnASeabed)
 
 
 
+// A bed of two strengths, a surface by name, at every other node: the mean
+// counts.
+TEST(CapWithDepth, FactorOfSafetyOfABedOfTwoStrengths)
+{
+  const StaticCase<2> slope(
+    "verification/infinite-slope.prm",
+    "cap-of-two-strengths",
+    {"Surfaces/Names=ratio",
+     "Surfaces/ratio/Expression=if(abs(x - 0.05) < 0.02, 1.5, 0.5)",
+     "Boundaries/Bottom=seabed",
+     "Boundaries/Seabed/Friction coefficient=100",
+     "Boundaries/Seabed/Maximum shear stress=4000*depth*ratio",
+     "Strength reduction/Seabed=true",
+     "Materials/clay/Undrained shear strength=1e6"});
+  EXPECT_NEAR(slope.factor_of_safety(),
+              4000. / (1e4 * std::sin(M_PI / 9.)),
+              2e-3);
+}
+
+
+
 TEST(CapWithDepth, WhatCannotBeIsSaid)
 {
   const auto error = [](const Overrides &overrides) {
@@ -129,6 +150,11 @@ TEST(CapWithDepth, WhatCannotBeIsSaid)
               .find("but the obstacle moves"),
             std::string::npos);
   EXPECT_NE(error({cap + "1e3*depht"}).find("in x, y, depth, pi"),
+            std::string::npos);
+  EXPECT_NE(error({cap + "1e3*ratos",
+                   "Surfaces/Names=ratio",
+                   "Surfaces/ratio/Expression=1"})
+              .find("in x, y, depth, ratio, pi"),
             std::string::npos);
   EXPECT_NE(error({cap + "1e3*(depth - 0.5)"}).find("cannot be negative"),
             std::string::npos);

@@ -115,7 +115,8 @@ TEST(QuietPoints, LandslideAtRest)
   double fastest = 0.;
   for (unsigned int i = 0; i < quiet.table.n_rows(); ++i)
     if (quiet.table["time [s]"][i] >= later)
-      fastest = std::max(fastest, quiet.table["maximum speed [m/s]"][i]);
+      fastest =
+        std::max(fastest, quiet.table["maximum speed of points [m/s]"][i]);
   gates.at_most("speed of points from 3 s after the grid rests [m/s]",
                 fastest,
                 0.05);

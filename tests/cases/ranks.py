@@ -380,8 +380,8 @@ class SofteningBed(Runs):
     """A bed that softens by slip: uniform mesh, mesh that follows the soil, and
     several ranks."""
 
-    def compare(self, file, surface, slipped):
-        settings = SLIDE + TERSE + [f"{surface}/Slip to remould=2",
+    def compare(self, file, surface, slipped, more=()):
+        settings = SLIDE + TERSE + [*more, f"{surface}/Slip to remould=2",
                                     f"{surface}/Remoulded shear stress ratio=0.2"]
         uniform = self.run_on(1, settings, file, name="uniform")
         self.assertGreater(uniform[f"slipped {slipped} [m]"][-1], 30)
@@ -403,7 +403,15 @@ class SofteningBed(Runs):
         self.compare("landslide.prm", "Boundaries/Seabed", "seabed")
 
     def test_obstacle(self):
-        self.compare("landslide-inclined.prm", "Obstacles/bed", "obstacles")
+        """Strength and bed by a raster."""
+        raster = self.folder / "ratio.asc"
+        raster.write_text("ncols 2\nnrows 2\nxllcorner -1000\nyllcorner -1000\n"
+                          "cellsize 1000\n1 1.2\n1 1.2\n")
+        self.compare("landslide-inclined.prm", "Obstacles/bed", "obstacles", [
+            "Surfaces/Names=ratio", f"Surfaces/ratio/File={raster}",
+            "Surfaces/ratio/Section=-300,0; 280,0", "Surfaces/ratio/Quantity=other",
+            "Materials/clay/Undrained shear strength=2200*ratio",
+            "Obstacles/bed/Maximum shear stress=900*ratio"])
 
 
 class Graded(Runs):

@@ -88,6 +88,44 @@ TEST(Terrain, PlaneBedIsTheHalfPlane)
 
 
 
+// Strength and bed by the raster of a plane, along an oblique section, are
+// those of an expression. The raster is no height: that of 'Grid/Origin' does
+// not count.
+TEST(Terrain, StrengthAndBedOfARaster)
+{
+  const std::string file =
+    write("ratio.asc", [](const double x, const double y) {
+      return 0.8 + 0.004 * (0.8 * x + 0.6 * y);
+    });
+  const auto slide = [&](const std::string &name, const std::string &ratio) {
+    return run<2>("landslide-inclined.prm",
+                  name,
+                  {"Grid/Cell size=0.8",
+                   "End time=1",
+                   "Grid/Origin=0,0,300",
+                   "Surfaces/Names=ratio",
+                   "Surfaces/ratio/File=" + file,
+                   "Surfaces/ratio/Quantity=other",
+                   "Surfaces/ratio/Section=400000,6500000; 400008,6500006",
+                   "Materials/clay/Undrained shear strength=1000 + 900*depth*" +
+                     ratio,
+                   "Obstacles/bed/Maximum shear stress=1000*" + ratio});
+  };
+  const Table raster     = slide("ratio-raster", "ratio");
+  const Table expression = slide("ratio-expression", "(0.8 + 0.004*x)");
+  const Table uniform    = slide("ratio-uniform", "0.8");
+  ASSERT_EQ(raster.n_rows(), expression.n_rows());
+  for (const std::string column :
+       {"friction work [J]", "plastic work [J]", "kinetic energy [J]"})
+    {
+      const double end = expression[column].back();
+      EXPECT_NEAR(raster[column].back(), end, 1e-9 * end) << column;
+      EXPECT_GT(std::abs(uniform[column].back() - end), 0.005 * end) << column;
+    }
+}
+
+
+
 // Two layers of a slope in 3-D that a bed cuts: volume, centre, who has what.
 TEST(Terrain, LayersInThreeDimensions)
 {

@@ -19,6 +19,6 @@ TEST(ThinPoint, Falls)
   EXPECT_GE(time, 1.5);
   // Velocities belong to the middle of a step of 4 ms.
   EXPECT_NEAR(velocity, -9.81 * time, 0.04);
-  EXPECT_LT(table["maximum speed [m/s]"].back(), 9.81 * time + 0.04);
+  EXPECT_LT(table["maximum speed of points [m/s]"].back(), 9.81 * time + 0.04);
   EXPECT_EQ(table["points"].back(), 1.);
 }

@@ -2,6 +2,7 @@
 #ifndef talus_base_expression_h
 #define talus_base_expression_h
 
+#include <deal.II/base/array_view.h>
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/point.h>
 
@@ -48,8 +49,7 @@ namespace talus
     /// @param expressions separated by semicolons
     /// @param n_components number of expressions required
     /// @param constants of the user
-    /// @param variables names in place of x, y (, z), t, separated by commas;
-    ///   messages do not mention names that begin with 'unused'
+    /// @param variables names in place of x, y (, z), t, separated by commas
     /// @param other_names that would be allowed, for messages
     Expression(const std::string &name,
                const std::string &expressions,
@@ -65,6 +65,12 @@ namespace talus
     /// Return value(); throws ExcPoint if it is not finite.
     double
     finite_value(const dealii::Point<dim> &x, double t, unsigned int component);
+
+    /// Return the value of a component for @p arguments, one per variable, in
+    /// their order. Throws ExcPoint if it is not finite.
+    double
+    finite_value(const dealii::ArrayView<const double> &arguments,
+                 unsigned int                           component = 0);
 
   private:
     std::string                           name_;

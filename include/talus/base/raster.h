@@ -32,6 +32,9 @@ namespace talus
     std::string coordinate_system;
     /// Unit of the values as the file states the unit; empty for m.
     std::string unit;
+    /// Whether the values are heights on the map, m; otherwise another quantity
+    /// in the unit of the file.
+    bool has_heights = true;
     /// Width of the square over which values are means, m; 0 for values as the
     /// file has them.
     double smoothed_over = 0;

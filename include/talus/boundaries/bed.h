@@ -2,10 +2,10 @@
 #ifndef talus_boundaries_bed_h
 #define talus_boundaries_bed_h
 
-#include <talus/base/shear_stress_cap.h>
 #include <talus/boundaries/interface_friction.h>
+#include <talus/geometry/place_expression.h>
 
-#include <memory>
+#include <optional>
 #include <string>
 
 namespace talus
@@ -27,8 +27,10 @@ namespace talus
 
     /// Parse the maximum shear stress and check the parameters. Call after
     /// parsing. Throws ExcUser.
+    /// @param surfaces surfaces with names, if there are any
     void
-    prepare(const Constants &constants);
+    prepare(const Constants          &constants,
+            const SurfaceSource<dim> *surfaces = nullptr);
 
     /// Whether the surface has a maximum shear stress.
     bool
@@ -45,7 +47,7 @@ namespace talus
     }
 
     /// Maximum shear stress that the intact surface passes to the soil at @p x,
-    /// Pa; infinite without limit.
+    /// Pa; infinite without limit. Throws ExcUser if it is negative.
     double
     maximum_shear_stress(const dealii::Point<dim> &x) const;
 
@@ -64,16 +66,16 @@ namespace talus
     }
 
     void
-    set_depth(const typename ShearStressCap<dim>::Depth &depth)
+    set_depth(const typename PlaceExpression<dim>::Depth &depth)
     {
       if (cap_)
         cap_->set_depth(depth);
     }
 
   private:
-    std::string                          section_;
-    std::string                          maximum_shear_stress_text_;
-    std::unique_ptr<ShearStressCap<dim>> cap_; ///< Pa, if limited
+    std::string                         section_;
+    std::string                         maximum_shear_stress_text_;
+    std::optional<PlaceExpression<dim>> cap_; ///< Pa, if limited
   };
 } // namespace talus
 

@@ -56,10 +56,12 @@ namespace talus
   public:
     Boundaries();
 
-    /// Parse the expressions with @p constants. Throws ExcUser if conditions
-    /// and expressions contradict each other.
+    /// Parse the expressions with @p constants and the named @p surfaces, if
+    /// there are any. Throws ExcUser if conditions and expressions contradict
+    /// each other.
     void
-    parse(const Constants &constants);
+    parse(const Constants          &constants,
+          const SurfaceSource<dim> *surfaces = nullptr);
 
     void
     open_accounts(Accounts<dim> &accounts) override;

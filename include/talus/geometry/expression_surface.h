@@ -2,14 +2,11 @@
 #ifndef talus_geometry_expression_surface_h
 #define talus_geometry_expression_surface_h
 
-#include <talus/base/expression.h>
-#include <talus/geometry/surface.h>
+#include <talus/geometry/place_expression.h>
 
 #include <array>
 #include <limits>
-#include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace talus
@@ -21,20 +18,15 @@ namespace talus
   {
   public:
     using typename Surface<dim>::Value;
-    using Named = std::pair<std::string, std::shared_ptr<const Surface<dim>>>;
-
-    /// Maximum number of named surfaces in an expression.
-    static constexpr unsigned int n_others = 4 - (dim - 1);
+    using typename Surface<dim>::Named;
 
     /// Throws ExcUser if the expression is not valid.
     /// @param path name of the parameter, for messages
-    /// @param others named surfaces in the expression, at most n_others
-    /// @param names of all surfaces, for messages
-    ExpressionSurface(const std::string              &path,
-                      const std::string              &expression,
-                      const Constants                &constants,
-                      const std::vector<Named>       &others,
-                      const std::vector<std::string> &names = {});
+    /// @param known surfaces that the expression may name
+    ExpressionSurface(const std::string        &path,
+                      const std::string        &expression,
+                      const Constants          &constants,
+                      const std::vector<Named> &known);
 
     Value
     at(const dealii::Point<dim> &x) const override;
@@ -50,11 +42,6 @@ namespace talus
     largest_change(const dealii::Point<dim> &x, double distance) const override;
 
   private:
-    /// x (and z), then the heights of the named surfaces, then zeros.
-    using Arguments = std::array<double, 4>;
-
-    double
-    evaluate(const Arguments &arguments) const;
     Value
     compute_value(const dealii::Point<dim> &x) const;
     double
@@ -73,10 +60,10 @@ namespace talus
     template <std::size_t n, typename T>
     using Table = std::vector<Known<n, T>>;
 
-    std::vector<Named>             others_;
-    std::unique_ptr<Expression<3>> expression_;
-    mutable Table<2, Value>        values_;  ///< by place in plan
-    mutable Table<3, double>       changes_; ///< by place in plan and distance
+    /// Expression in x (and z) and the heights of the surfaces.
+    PlaceExpression<dim>     expression_;
+    mutable Table<2, Value>  values_;  ///< by place in plan
+    mutable Table<3, double> changes_; ///< by place in plan and distance
   };
 } // namespace talus
 

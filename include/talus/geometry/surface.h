@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace talus
@@ -16,6 +17,9 @@ namespace talus
   class Surface
   {
   public:
+    /// Surface with the name given by the user.
+    using Named = std::pair<std::string, std::shared_ptr<const Surface<dim>>>;
+
     struct Value
     {
       double                 height; ///< y, m
@@ -59,6 +63,13 @@ namespace talus
     /// - 5"; @p path is the parameter, for messages. Throws ExcUser.
     virtual std::shared_ptr<const Surface<dim>>
     surface(const std::string &path, const std::string &expression) const = 0;
+
+    /// Return all surfaces with names, for use in expressions.
+    virtual std::vector<typename Surface<dim>::Named>
+    named() const
+    {
+      return {};
+    }
 
     /// Easting, northing and height of the mesh's origin on the map, m.
     virtual const dealii::Point<3> &

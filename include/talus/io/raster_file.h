@@ -23,10 +23,12 @@ namespace talus
   /// from the unit stated by the file; coordinates are as in the file, possibly
   /// degrees. Only the cells of @p part are read. Throws ExcUser with the file
   /// name if the raster cannot be read, or has heights in an unknown unit.
+  /// @param has_heights otherwise the values are left in the unit of the file
   Raster
   read_raster(
     const std::filesystem::path &file,
-    const RasterPart &part = [](const Raster &whole) { return whole; });
+    const RasterPart &part        = [](const Raster &whole) { return whole; },
+    bool              has_heights = true);
 
 
 

@@ -81,6 +81,12 @@ namespace talus
           const State<dim>     &state,
           Beginning             beginning) override;
 
+    /// Append front and rear along x (and z) of the soil in columns thicker
+    /// than `Runout/Smallest thickness`, m: edges of boxes, within the
+    /// outermost columns. NaN without thick soil. Collective.
+    void
+    list_thick_soil(const State<dim> &state, Quantities &list);
+
     /// Record the columns with soil, and the first corner of the path.
     void
     start(const State<dim> &state) override;
@@ -108,6 +114,12 @@ namespace talus
       return dim == 2 ? dealii::Point<2>(x[0], 0.)
                       : dealii::Point<2>(x[0], x[dim - 1]);
     }
+    void
+    make_sums(const State<dim> &state);
+    void
+    sum_columns(const State<dim> &state);
+    Box<dim>
+    thick_columns(const State<dim> &state) const;
     Centre
     centre_of_mass(const State<dim> &state) const;
     bool

@@ -25,8 +25,9 @@ namespace talus
       "Undrained shear strength",
       strength_.words(),
       sentence +
-        " A number, an expression in x, y (, z) and the depth below the "
-        "mudline, as 2000 + 1500*depth, or 'table FILE': a CSV file with the "
+        " A number, an expression in x, y (, z), the depth below the mudline "
+        "and the names of surfaces, as 2000 + 1500*depth*ratio, or 'table "
+        "FILE': a CSV file with the "
         "columns 'depth [m]' and 'undrained shear strength [Pa]'. Place and "
         "depth [m] are taken at the start, without initial displacement; the "
         "strength moves with the soil.");

@@ -90,6 +90,13 @@ namespace talus
       statistics_->add_source(source);
     }
 
+    /// See Statistics::set_thick_soil().
+    void
+    set_thick_soil(const typename Statistics<dim>::Source &source)
+    {
+      statistics_->set_thick_soil(source);
+    }
+
     /// Add an observer called whenever a row of statistics.csv is due.
     void
     add_row_observer(std::unique_ptr<Observer<dim>> observer)

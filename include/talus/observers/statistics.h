@@ -13,7 +13,7 @@
 
 namespace talus
 {
-  /// Force of the seabed on the soil along x, N: mean since the last restart().
+  /// Force of the seabed on the soil, N: mean since the last restart().
   /// The force of a single step tells little.
   template <int dim>
   class SeabedForce
@@ -32,8 +32,8 @@ namespace talus
     list_state(StateList &list);
 
   private:
-    double previous_time_    = 0; // s
-    double previous_impulse_ = 0; // N s
+    double                 previous_time_ = 0; // s
+    dealii::Tensor<1, dim> previous_impulse_;  // N s
   };
 
 
@@ -73,10 +73,12 @@ namespace talus
   /// quantities of 2-D runs are per metre width.
   ///
   /// - `height [m]` is the maximum height of a centre above the ground.
-  /// - `seabed force x [N]` is the mean force of the seabed on the soil since
-  ///   the previous row (0 in the first row); `seabed impulse x [N s]` is the
-  ///   impulse since the start. Both are negative while friction brakes a slide
-  ///   towards positive x.
+  /// - `maximum speed [m/s]` belongs to the background grid, without the FLIP
+  ///   noise of the points: 99.9 % of the mass is not faster.
+  /// - `seabed force x [N]`, ... is the mean force of the seabed on the soil
+  ///   since the previous row (0 in the first row); `seabed impulse x [N s]`,
+  ///   ... is the impulse since the start. Both are negative while friction
+  ///   brakes a slide towards positive x.
   /// - `kinetic energy [J]` belongs to the points. `grid kinetic energy [J]`
   ///   belongs to the background grid, without the FLIP noise of the points,
   ///   and shows whether the slide has come to rest; 0 before the first step.
@@ -103,6 +105,14 @@ namespace talus
     add_source(const Source &source)
     {
       sources_.push_back(source);
+    }
+
+    /// Add the columns of front and rear of thick soil behind the columns of
+    /// motion, if runout is written.
+    void
+    set_thick_soil(const Source &source)
+    {
+      thick_soil_ = source;
     }
 
     void
@@ -158,6 +168,7 @@ namespace talus
     const Obstacles<dim> *obstacles_;
     SeabedForce<dim>      seabed_force_;
     EnergyBudget<dim>     budget_;
+    Source                thick_soil_;
     std::vector<Source>   sources_;
     bool                  has_runout_ = true;
   };

@@ -44,9 +44,9 @@ namespace talus
 
 
   /// Set the column `undrained shear strength` of all points, if there is one:
-  /// by the number, the expression of place and depth, or the table of the
-  /// material of each body, times the random field of the material. Throws
-  /// ExcUser if the strength of a point is not positive (the number 0 is
+  /// by the number, the expression of place, depth and surfaces, or the table
+  /// of the material of each body, times the random field of the material.
+  /// Throws ExcUser if the strength of a point is not positive (the number 0 is
   /// allowed), or softening is too fast for the stiffness. Collective.
   /// @param inputs constants, surfaces, and the folder of the tables
   /// @param domain domain of the mesh

@@ -4,6 +4,7 @@
 
 #include <talus/base/expression.h>
 #include <talus/boundaries/bed_slip.h>
+#include <talus/geometry/surface.h>
 #include <talus/materials/materials.h>
 
 #include <deal.II/base/mpi.h>
@@ -22,6 +23,9 @@ namespace talus
   class Trigger : public dealii::ParameterAcceptor
   {
   public:
+    /// Surfaces with names, for use in the expressions.
+    using Surfaces = std::vector<typename Surface<dim>::Named>;
+
     Trigger();
 
     /// Call after parsing. Throws ExcUser if the parameters contradict each
@@ -54,6 +58,7 @@ namespace talus
     void
     choose_points(Points<dim>     &points,
                   const Constants &constants,
+                  const Surfaces  &surfaces,
                   MPI_Comm         communicator) const;
 
     /// Set the strength factors at time @p now, s, unless unchanged since time
@@ -67,7 +72,7 @@ namespace talus
     /// Return the region of seabeds and obstacles brought to seabed_factor();
     /// empty if the factor multiplies all maximum shear stresses.
     BedRegion<dim>
-    seabed_region(const Constants &constants) const;
+    seabed_region(const Constants &constants, const Surfaces &surfaces) const;
 
     /// Throw ExcUser if the trigger has a seabed region, but @p n_places, the
     /// number of places of seabed and obstacles in the region, is 0.

@@ -44,6 +44,13 @@ namespace talus
       return !file_.empty();
     }
 
+    /// Whether the numbers of the file are heights.
+    bool
+    has_heights() const
+    {
+      return quantity_ == "height";
+    }
+
     /// Return the path of the file, from @p folder.
     std::filesystem::path
     file(const std::filesystem::path &folder) const
@@ -105,6 +112,7 @@ namespace talus
     std::string name_;
     std::string file_        = "";
     std::string attribute_   = "";
+    std::string quantity_    = "height";
     std::string projection_  = "";
     double      cell_size_   = 0.;
     std::string section_     = "";

@@ -40,6 +40,12 @@ namespace talus
     surface(const std::string &path,
             const std::string &expression) const override;
 
+    std::vector<typename Surface<dim>::Named>
+    named() const override
+    {
+      return surfaces_;
+    }
+
     const dealii::Point<3> &
     origin() const override
     {
@@ -76,13 +82,13 @@ namespace talus
     std::string
     map() const;
 
-    std::vector<std::string>                            listed_names_;
-    std::vector<std::unique_ptr<NamedSurface<dim>>>     named_;
-    const Constants                                    *constants_ = nullptr;
-    dealii::Point<3>                                    origin_;
-    std::vector<typename ExpressionSurface<dim>::Named> surfaces_;
-    std::filesystem::path                               folder_;
-    std::vector<InputFile>                              files_;
+    std::vector<std::string>                        listed_names_;
+    std::vector<std::unique_ptr<NamedSurface<dim>>> named_;
+    const Constants                                *constants_ = nullptr;
+    dealii::Point<3>                                origin_;
+    std::vector<typename Surface<dim>::Named>       surfaces_;
+    std::filesystem::path                           folder_;
+    std::vector<InputFile>                          files_;
 
     struct Route
     {

@@ -123,3 +123,27 @@ TEST_F(RunoutTest, WithoutThickSoilFieldsAreEmpty)
   const Row row = last_row();
   EXPECT_EQ(row, (Row{"1", "", "", "", "3", "2", "0", "0"}));
 }
+
+
+
+// Ends of boxes within the outermost columns, a metre wide, whose soil is thick
+// enough; along x and z. The single thin point beyond is not seen.
+TEST_F(RunoutTest, EndsOfThickSoil)
+{
+  using namespace runout_rows_test;
+  Runout<3> runout(origin);
+  Scene<3>  soil("0, 0, 0", "12, 4, 12");
+  for (const double x : {4.4, 5.4})
+    soil.add({x, 0.5, 7.3});
+  soil.add({9.5, 0.5, 2.5});
+  soil.points.data(soil.points.edges, 4)[2] = 1e-3; // y of edge 1
+  soil.sort();
+  Quantities ends;
+  runout.list_thick_soil(soil, ends);
+  ASSERT_EQ(ends.size(), 4u);
+  const std::vector<double> expected = {5.65, 4.15, 7.55, 7.05};
+  for (unsigned int i = 0; i < 4; ++i)
+    EXPECT_NEAR(ends[i].value, expected[i], 1e-12) << ends[i].heading();
+  EXPECT_EQ(ends[2].heading(), "front of thick soil z [m]");
+  EXPECT_EQ(ends[3].heading(), "rear of thick soil z [m]");
+}

@@ -53,11 +53,15 @@ namespace
 
   TEST_F(StatisticsTest, Header)
   {
-    const std::string first =
-      "time [s],step,time step [s],points,front x [m],"
-      "front of 99.5 % mass x [m],rear x [m],height [m],";
+    const auto along = [](const std::string &axis) {
+      return "front " + axis + " [m],front of 99.5 % mass " + axis +
+             " [m],rear " + axis + " [m],";
+    };
+    const std::string first = "time [s],step,time step [s],points,";
+    const std::string speed = "maximum speed [m/s],maximum speed of points "
+                              "[m/s],mass [kg],";
     const std::string last =
-      "seabed force x [N],seabed impulse x [N s],kinetic energy [J],"
+      "kinetic energy [J],"
       "grid kinetic energy [J],elastic energy [J],plastic work [J],"
       "friction work [J],contact work [J],damping work [J],"
       "gravity work [J],energy remainder [J],empty interior cells,empty "
@@ -71,10 +75,13 @@ namespace
       statistics.add_source(count_nodes<2>);
       statistics.begin({folder}, s);
       EXPECT_EQ(lines("statistics.csv").at(0),
-                first +
-                  "centre x [m],centre y [m],centre velocity x [m/s],"
-                  "centre velocity y [m/s],maximum speed [m/s],mass [kg],"
-                  "momentum x [kg m/s]," +
+                first + along("x") +
+                  "height [m],centre x [m],centre y [m],centre velocity x "
+                  "[m/s],centre velocity y [m/s]," +
+                  speed +
+                  "momentum x [kg m/s],momentum y [kg m/s],seabed force x [N],"
+                  "seabed force y [N],seabed impulse x [N s],"
+                  "seabed impulse y [N s]," +
                   last);
     }
     dealii::ParameterAcceptor::clear();
@@ -84,11 +91,15 @@ namespace
     statistics.add_source(count_nodes<3>);
     statistics.begin({folder}, s);
     EXPECT_EQ(lines("statistics.csv").at(0),
-              first +
-                "centre x [m],centre y [m],centre z [m],"
+              first + along("x") + along("z") +
+                "height [m],centre x [m],centre y [m],centre z [m],"
                 "centre velocity x [m/s],centre velocity y [m/s],"
-                "centre velocity z [m/s],maximum speed [m/s],mass [kg],"
-                "momentum x [kg m/s]," +
+                "centre velocity z [m/s]," +
+                speed +
+                "momentum x [kg m/s],momentum y [kg m/s],momentum z [kg m/s],"
+                "seabed force x [N],seabed force y [N],seabed force z [N],"
+                "seabed impulse x [N s],seabed impulse y [N s],"
+                "seabed impulse z [N s]," +
                 last);
   }
 
@@ -127,10 +138,13 @@ namespace
     EXPECT_EQ(row["centre y [m]"], 0.75);
     EXPECT_EQ(row["centre velocity x [m/s]"], 0.75);
     EXPECT_EQ(row["centre velocity y [m/s]"], 1.);
-    EXPECT_EQ(row["maximum speed [m/s]"], 5.);
+    EXPECT_EQ(row["maximum speed [m/s]"], 0.);
+    EXPECT_EQ(row["maximum speed of points [m/s]"], 5.);
     EXPECT_EQ(row["mass [kg]"], 4.);
     EXPECT_EQ(row["momentum x [kg m/s]"], 3.);
+    EXPECT_EQ(row["momentum y [kg m/s]"], 4.);
     EXPECT_EQ(row["seabed force x [N]"], -12.);
+    EXPECT_EQ(row["seabed force y [N]"], 18.);
     EXPECT_EQ(row["seabed impulse x [N s]"], -6.);
     EXPECT_EQ(row["kinetic energy [J]"], 6. + 12.5);
     EXPECT_EQ(row["splits"], 0);
@@ -145,6 +159,7 @@ namespace
     s.accounts.impulse("seabed impulse")[0] = -7.;
     row                                     = evaluate(statistics, s);
     EXPECT_EQ(row["seabed force x [N]"], -2.);
+    EXPECT_EQ(row["seabed force y [N]"], 0.);
     EXPECT_EQ(row["seabed impulse x [N s]"], -7.);
     EXPECT_EQ(lines("statistics.csv").size(), 3u);
   }
@@ -182,6 +197,7 @@ namespace
     auto row = evaluate(statistics, s);
     EXPECT_EQ(row["kinetic energy [J]"], 25.);
     EXPECT_EQ(row["grid kinetic energy [J]"], 9.);
+    EXPECT_EQ(row["maximum speed [m/s]"], 3.);
     EXPECT_EQ(row["elastic energy [J]"], 6.);
     EXPECT_EQ(row["plastic work [J]"], 10.);
     EXPECT_EQ(row["friction work [J]"], 20.);

@@ -48,7 +48,7 @@ namespace trigger_test
             points.data(points.position)[p] = 2. - x;
             factor(p)                       = 1.;
           }
-      trigger.choose_points(points, Constants(), MPI_COMM_SELF);
+      trigger.choose_points(points, Constants(), {}, MPI_COMM_SELF);
     }
 
     double &
@@ -212,12 +212,12 @@ TEST(TriggerInTime, SeabedRegion)
   const std::string half = "set Seabed shear stress fraction = 0.5\n";
   {
     Triggered soil(half);
-    EXPECT_FALSE(soil.trigger.seabed_region(Constants()));
+    EXPECT_FALSE(soil.trigger.seabed_region(Constants(), {}));
     soil.trigger.check_seabed_region(0);
   }
   Triggered soil(half + "set Seabed region = 20 - abs(x)");
   soil.check();
-  const BedRegion<2> region = soil.trigger.seabed_region(Constants());
+  const BedRegion<2> region = soil.trigger.seabed_region(Constants(), {});
   for (const double x : {-30., -20., -19., 0., 19., 21.})
     EXPECT_EQ(region(Point<2>(x, 7.)), std::abs(x) < 20.) << x;
   soil.trigger.check_seabed_region(1);

@@ -12,12 +12,16 @@ MEANINGS = {
     "front of 99.5 % mass x [m]": (
         "front of 99.5 % of the mass", "The front without single points far ahead; the better "
         "one of the two for damage."),
+    "front of thick soil x [m]": (
+        "front of thick soil", "The nose: where the soil is thicker than `Runout/Smallest "
+        "thickness`."),
     "rear x [m]": ("rear", "Smallest x of a point: how far the scarp went back."),
     "height [m]": ("height", "Largest height of a point above the bottom or the ground."),
     "centre x [m]": ("centre of mass, x", "How far the soil went as a whole."),
     "centre velocity x [m/s]": (
         "velocity of the centre of mass", "How fast the soil moves as a whole."),
-    "maximum speed [m/s]": (
+    "maximum speed [m/s]": ("largest speed", "On the grid; 99.9 % of the mass is not faster."),
+    "maximum speed of points [m/s]": (
         "largest speed of a point", "An upper bound for impacts; single points are noisy, up to "
         "1 m/s in soil at rest."),
     "points": ("material points", "Points split where the flow stretches: more points, the same "
@@ -52,7 +56,7 @@ X_CURVES = (
      ("centre x [m]", "centre of mass", {"color": GREY}),
      ("rear x [m]", "rear", {"color": RED})),
     (("centre velocity x [m/s]", "centre of mass, x", {"color": GREY}),
-     ("maximum speed [m/s]", "fastest point", {"color": RED})))
+     ("maximum speed [m/s]", "fastest soil", {"color": RED})))
 
 
 def history(run, table, curves, where):
