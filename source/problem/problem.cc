@@ -173,10 +173,10 @@ namespace talus
       add_remarks(notes_on_uncapped_beds(obstacles));
     add_remarks(inputs_.surfaces.notes_on_rising(from, to));
     // Without weight no slide shears in layers.
-    const auto on_thickness = bodies_.measure_thickness(state.points,
+    const auto   on_thickness = bodies_.measure_thickness(state.points,
                                                         state.grid,
                                                         limits_shear_stress());
-    const double gravity = loading.gravity().norm();
+    const double gravity      = loading.gravity().norm();
     if (gravity > 0.)
       add_remarks(on_thickness);
     add_remarks(notes_on_stiffness(state.points,
