@@ -63,12 +63,6 @@ namespace talus
 
 
 
-  // Soil that is sheared along the wall has momentum at its nodes, where the
-  // velocity is zero: sums over points have the mean over a cell. If the wall
-  // took this momentum in every step, points near the wall would be driven
-  // backwards until their sum vanishes, and mixing would turn the difference
-  // between the points into noise (doc/method.md#walls-without-slip). Along the
-  // normal an impact is plastic.
   template <int dim>
   void
   FixedCondition<dim>::constrain(const Point<dim> & /*x*/,
@@ -77,15 +71,7 @@ namespace talus
                                  VelocityConstraints<dim> &constraints)
   {
     for (unsigned int d = 0; d < dim; ++d)
-      {
-        const Tensor<1, dim> axis     = Point<dim>::unit_vector(d);
-        const auto          *previous = constraints.find(axis);
-        constraints.set({axis,
-                         0.,
-                         owner,
-                         d == this->face() / 2 ||
-                           (previous != nullptr && previous->takes_momentum)});
-      }
+      constraints.set({Point<dim>::unit_vector(d), 0., owner});
   }
 
 
@@ -112,7 +98,7 @@ namespace talus
     for (unsigned int d = 0; d < dim; ++d)
       if (const Tensor<1, dim> axis = Point<dim>::unit_vector(d);
           expression_.prescribes(d) &&
-          (constraints.find(axis) == nullptr || d == this->face() / 2))
+          (!constraints.has(axis) || d == this->face() / 2))
         constraints.set({axis, expression_.value(x, t, d), owner});
   }
 

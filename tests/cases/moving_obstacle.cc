@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Obstacles with a mass: springs without soil, body-on-springs.prm, and a pipe
-// that a force drags through clay, prm/verification/pipe.prm; and a gate that is
-// lifted off a dam, prm/verification/gate.prm.
+// that a force drags through clay, prm/verification/pipe.prm.
 
 #include "case.h"
 #include "verification.h"
@@ -430,25 +429,3 @@ namespace moving_obstacle_test
                   0.02);
   }
 } // namespace moving_obstacle_test
-
-
-
-// Rows are 0.05 s apart. The gate rests for 4 rows and clears the syrup in 3
-// more; the lag is neither nothing nor more than twice that time.
-TEST(Gate, FrontLagsBehindADamGoneAtOnce)
-{
-  const Table lifted      = run<2>("verification/gate.prm", "gate"),
-              sudden      = run<2>("verification/gate.prm",
-                              "no-gate",
-                              {"Obstacles/gate/Lower corner=0.37, 0",
-                                    "Obstacles/gate/Upper corner=0.39, 0.1"});
-  const std::string front = "front of 99.5 % mass x [m]";
-  for (const double mass : lifted["mass [kg]"])
-    EXPECT_NEAR(mass, lifted["mass [kg]"].front(), 1e-12);
-  ASSERT_EQ(lifted.n_rows(), 25u);
-  for (unsigned int row = 6; row + 4 < lifted.n_rows(); ++row)
-    {
-      EXPECT_LT(lifted[front][row + 4], sudden[front][row] - 0.002);
-      EXPECT_GT(lifted[front][row + 4], sudden[front][row - 6]);
-    }
-}

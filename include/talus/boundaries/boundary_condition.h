@@ -18,9 +18,6 @@ namespace talus
     dealii::Tensor<1, dim> normal;   ///< the direction, a unit vector
     double                 velocity; ///< along `normal`, m/s
     unsigned int           owner;    ///< number of the condition
-    /// Whether the points lose their momentum along `normal` at the node.
-    /// Otherwise the velocity before the step counts as the prescribed one.
-    bool takes_momentum = true;
   };
 
 
@@ -30,14 +27,14 @@ namespace talus
   class VelocityConstraints
   {
   public:
-    /// Return the constraint along @p normal; null if there is none.
-    const VelocityConstraint<dim> *
-    find(const dealii::Tensor<1, dim> &normal) const
+    /// Whether the velocity along @p normal is prescribed.
+    bool
+    has(const dealii::Tensor<1, dim> &normal) const
     {
       for (unsigned int k = 0; k < size_; ++k)
         if (list_[k].normal == normal)
-          return &list_[k];
-      return nullptr;
+          return true;
+      return false;
     }
 
     /// Add a constraint, or replace the constraint along the same direction.
@@ -64,17 +61,7 @@ namespace talus
           v -= (v * constraint.normal) * constraint.normal;
           v += constraint.velocity * constraint.normal;
         }
-      dealii::Tensor<1, dim> impulse = nodes.set_velocity(node, v);
-      for (const VelocityConstraint<dim> &constraint : *this)
-        if (!constraint.takes_momentum)
-          {
-            const dealii::Tensor<1, dim> dv   = nodes.increment(node),
-                                         kept = dv * constraint.normal *
-                                                constraint.normal;
-            nodes.set_motion(node, v, dv - kept);
-            impulse -= nodes.mass(node) * kept;
-          }
-      return impulse;
+      return nodes.set_velocity(node, v);
     }
 
     const VelocityConstraint<dim> *
