@@ -462,6 +462,10 @@ namespace talus
     for (unsigned int face = 0; face < 2 * dim; ++face)
       check_expressions(face);
     seabed_.prepare(constants, surfaces);
+    AssertThrow(seabed_.limits_shear_stress(),
+                ExcUser("'Boundaries/Seabed/Maximum shear stress' is empty, "
+                        "where a number or an expression was expected. Give a "
+                        "stress in Pa."));
     AssertThrow(has_seabed() || !seabed_.softens(),
                 ExcUser("'Boundaries/Seabed/Slip to remould' is given, but no "
                         "face of the mesh is a seabed. Give the entry in the "
