@@ -47,6 +47,18 @@ namespace talus
                   "true: parts of the body inside obstacles are removed, and "
                   "the body is filled down to the obstacles. false: a body "
                   "inside an obstacle is an error.");
+    std::string faces = "none";
+    for (unsigned int face = 0; face < 2 * dim; ++face)
+      faces += "|" + face_names[face];
+    add_parameter("Inflow face",
+                  inflow_face_,
+                  "Face of the mesh, with the condition 'velocity', through "
+                  "which more soil of the body enters. The opening is the part "
+                  "of the face that the body touches at the start; the "
+                  "discharge is the normal velocity of the face, integrated "
+                  "over the opening.",
+                  this->prm,
+                  Patterns::Selection(faces));
   }
 
 
