@@ -122,9 +122,7 @@ namespace talus
     /// Velocity along the axis of the normal of @p face at @p x, m, time @p t,
     /// s, in m/s; only if drives_normal().
     double
-    normal_velocity(unsigned int              face,
-                    const dealii::Point<dim> &x,
-                    double                    t);
+    normal_velocity(unsigned int face, const dealii::Point<dim> &x, double t);
 
     bool
     is_seabed(const unsigned int face) const

@@ -75,7 +75,7 @@ namespace talus
     /// Column: mass of a feeding point per length along the normal of the face
     /// at the start, kg/m; 0 for other points.
     unsigned int line_density_ = 0;
-    double       mass_         = 0; ///< that entered on this rank, kg
+    double       mass_         = 0; ///< mass that entered on this rank, kg
   };
 } // namespace talus
 
