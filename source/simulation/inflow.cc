@@ -92,31 +92,41 @@ namespace talus
 
 
   template <int dim>
-  bool
-  Inflow<dim>::touches_face(const unsigned int p) const
+  double
+  Inflow<dim>::distance_to_face(const unsigned int p) const
   {
-    const unsigned int face = face_of(p);
-    if (face == numbers::invalid_unsigned_int)
-      return false;
-    const Points<dim> &points = state_.points;
+    const unsigned int face   = face_of(p);
     const Box<dim>    &domain = state_.grid.domain();
-    const unsigned int d      = face / 2;
-    const double       length = points.data(points.box_length, d)[p];
-    const double       x      = points.data(points.position, d)[p];
-    const double       distance =
-      (face % 2 == 0 ? x - domain.lower[d] : domain.upper[d] - x);
-    return std::abs(distance - 0.5 * length) < 1e-6 * length;
+    const double x = state_.points.data(state_.points.position, face / 2)[p];
+    return face % 2 == 0 ? x - domain.lower[face / 2]
+                         : domain.upper[face / 2] - x;
   }
 
 
 
+  /// The centre of a point in the first row is half a length from the face.
+  /// Boxes of points at the rim of the opening may be shorter than the row.
+  template <int dim>
+  bool
+  Inflow<dim>::touches_face(const unsigned int p) const
+  {
+    const unsigned int face = face_of(p);
+    return face != numbers::invalid_unsigned_int &&
+           distance_to_face(p) <
+             0.99 * state_.points.data(state_.points.box_length, face / 2)[p];
+  }
+
+
+
+  /// Along the normal the point gets the length of the row, in the plane of the
+  /// face the area that keeps the volume.
   template <int dim>
   void
   Inflow<dim>::start_feeding(const unsigned int p)
   {
     Points<dim>       &points = state_.points;
     const unsigned int d      = face_of(p) / 2;
-    const double       length = points.data(points.length_at_creation, d)[p];
+    const double       length = 2. * distance_to_face(p);
     const Cell<dim>   &cell =
       state_.grid
         .cells()[state_.grid.find_cell(load_place(points, points.position, p))];
@@ -131,6 +141,15 @@ namespace talus
                        " m; at most two thirds of a cell are allowed. "
                        "Give at least two points along the axis of the "
                        "inflow in 'Points per cell and axis'.")));
+    const double ratio = length / points.data(points.box_length, d)[p];
+    for (unsigned int e = 0; e < dim; ++e)
+      {
+        const double factor =
+          (e == d ? ratio : std::pow(ratio, -1. / (dim - 1.)));
+        points.data(points.edges, e * (dim + 1))[p] *= factor;
+        points.data(points.box_length, e)[p] *= factor;
+        points.data(points.length_at_creation, e)[p] *= factor;
+      }
     points.data(line_density_)[p]     = points.data(points.mass)[p] / length;
     points.data(points.generation)[p] = generation_of_feeding_points;
   }
@@ -175,8 +194,8 @@ namespace talus
     const unsigned int face = face_of(p), d = face / 2;
     const double       inwards = (face % 2 == 0 ? 1. : -1.);
     Point<dim>         x       = load_place(points, points.initial_position, p);
-    x[d]                       = (face % 2 == 0 ? state_.grid.domain().lower[d]
-                                                : state_.grid.domain().upper[d]);
+    const Box<dim>    &domain  = state_.grid.domain();
+    x[d] = (face % 2 == 0 ? domain.lower[d] : domain.upper[d]);
     const double speed =
       inwards * problem_.boundaries.normal_velocity(
                   face, x, state_.time + 0.5 * state_.time_step);

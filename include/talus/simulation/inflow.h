@@ -57,6 +57,8 @@ namespace talus
 
     unsigned int
     face_of(unsigned int p) const;
+    double
+    distance_to_face(unsigned int p) const;
     bool
     touches_face(unsigned int p) const;
     void
