@@ -32,7 +32,7 @@ PAGES = [
         ("Pipes in clay", ["Pipe", "PipeRefined"]),
         ("Obstacles moved by forces", ["BodyOnSprings", "DraggedPipe"]),
         ("Water", ["BlockInWater", "SheetInWater"]),
-        ("Runout, rest and outflow", ["Runout", "Rest", "Outflow"]),
+        ("Runout, rest and outflow", ["Runout", "Rest", "Inflow", "Outflow"]),
     ]),
     ("statics", "Equilibrium and factor of safety", [
         ("Equilibrium",
@@ -103,7 +103,7 @@ RULES = [
      r"mass inside|empty interior|empty columns|bodies|work of the loads|"
      r"mass below|seabed force over|kinetic energy before"),
     ("agreement", "LandslideFromEquilibrium", r"\| front"),
-    ("reference", "Trigger|Outflow", ""),
+    ("reference", "Trigger|Inflow|Outflow", ""),
     ("balance", "", r"momentum"),
     ("agreement", "LandslideInclined|LandslideSimilarity|LandslideOfLayers|"
      "LandslideMerged|Landslide3d|QuietPoints|PaperSlopeSafety|SlabFailure|"

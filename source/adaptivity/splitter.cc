@@ -527,8 +527,7 @@ namespace talus
     for (unsigned int i = 1; i < n_children; ++i)
       {
         points.copy(p, first + i - 1);
-        points.data(points.id)[first + i - 1] = next_id_;
-        next_id_ += id_stride_;
+        points.data(points.id)[first + i - 1] = take_id();
       }
     for (unsigned int i = 0; i < n_children; ++i)
       {

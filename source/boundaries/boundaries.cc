@@ -144,6 +144,39 @@ namespace talus
 
 
   template <int dim>
+  bool
+  Boundaries<dim>::drives_normal(const unsigned int face) const
+  {
+    return names_[face] == "velocity" &&
+           (components_constrained_by_walls(1u << face) >> face / 2) & 1;
+  }
+
+
+
+  template <int dim>
+  double
+  Boundaries<dim>::normal_velocity(const unsigned int face,
+                                   const Point<dim>  &x,
+                                   const double       t)
+  {
+    VelocityConstraints<dim> constraints;
+    for (unsigned int c = 0; c < conditions_.size(); ++c)
+      if (conditions_[c]->face() == face)
+        conditions_[c]->constrain(x, t, c, constraints);
+    const auto along_normal =
+      std::find_if(constraints.begin(),
+                   constraints.end(),
+                   [face](const VelocityConstraint<dim> &constraint) {
+                     return constraint.normal ==
+                            Point<dim>::unit_vector(face / 2);
+                   });
+    AssertThrow(along_normal != constraints.end(), ExcInternalError());
+    return along_normal->velocity;
+  }
+
+
+
+  template <int dim>
   const Point<dim> &
   Boundaries<dim>::place_of(const unsigned int node) const
   {

@@ -52,6 +52,18 @@ namespace talus
                   "Whether parts of the body outside of the mesh are left out, "
                   "as of a cylinder in a quarter model between planes of "
                   "symmetry; otherwise they are an error.");
+    std::string faces = "none";
+    for (unsigned int face = 0; face < 2 * dim; ++face)
+      faces += "|" + face_names[face];
+    add_parameter("Inflow face",
+                  inflow_face_,
+                  "Face of the mesh, with the condition 'velocity', through "
+                  "which more soil of the body enters. The opening is the part "
+                  "of the face that the body touches at the start; the "
+                  "discharge is the normal velocity of the face, integrated "
+                  "over the opening.",
+                  this->prm,
+                  Patterns::Selection(faces));
   }
 
 

@@ -118,6 +118,7 @@ namespace talus
     , mesh_(mesh)
     , timer_(timer)
     , confinement_(problem.obstacles, problem.contact.facets())
+    , inflow_(state, problem, splitter_)
   {}
 
 
@@ -140,6 +141,7 @@ namespace talus
     update_nodes();
     grid_to_points();
     split();
+    inflow_.feed();
     mesh_.relocate(); // with children, which may lie in other cells
     state_.time += state_.time_step;
     ++state_.step;

@@ -85,6 +85,7 @@ namespace talus
         scheme_.merger().list_quantities(state, list);
         rest_.list_quantities(list);
         state.outflow.list_quantities(state.communicator(), list);
+        scheme_.inflow().list_quantities(list);
         problem_.interactions.list_quantities(state, list);
       });
     auto remarks = std::make_unique<RunRemarks<dim>>(log_);
@@ -150,6 +151,7 @@ namespace talus
     scheme_.splitter().prepare(state_.constants.box_shape);
     scheme_.merger().prepare(scheme_.splitter(), state_.constants.box_shape);
     problem_.open_accounts(state_.accounts);
+    scheme_.inflow().prepare(scheme_.merger().is_enabled());
     scheme_.merger().open_accounts(state_.accounts);
   }
 
@@ -164,6 +166,7 @@ namespace talus
   {
     Points<dim> &points = state_.points;
     problem_.create_points(state_);
+    scheme_.inflow().mark_feeding_points();
 
     const MPI_Comm     communicator = state_.communicator();
     const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
@@ -572,6 +575,7 @@ namespace talus
     mesh_.list_state(list);
     scheme_.splitter().list_state(list);
     scheme_.merger().list_state(list);
+    scheme_.inflow().list_state(list);
     static_stages_.list_state(list);
     rest_.list_state(list);
     output_.list_state(list);

@@ -148,6 +148,15 @@ namespace talus
       id_stride_ = stride;
     }
 
+    /// Return an id for a new point on this rank.
+    double
+    take_id()
+    {
+      const double id = next_id_;
+      next_id_ += id_stride_;
+      return id;
+    }
+
     /// Set up the ids of children after list_state() has been loaded on
     /// @p n_ranks ranks from a run on @p n_ranks_then. If both numbers differ,
     /// all ranks have loaded the same, largest next id, and each adds its

@@ -117,6 +117,15 @@ namespace talus
       });
     }
 
+    /// Whether the velocity along the normal of @p face follows an expression.
+    bool
+    drives_normal(unsigned int face) const;
+
+    /// Velocity along the axis of the normal of @p face at @p x, m, time @p t,
+    /// s, in m/s; only if drives_normal().
+    double
+    normal_velocity(unsigned int face, const dealii::Point<dim> &x, double t);
+
     bool
     is_seabed(const unsigned int face) const
     {

@@ -86,6 +86,14 @@ namespace talus
       return material_;
     }
 
+    /// Name of the face of the mesh through which soil of the body enters, or
+    /// `none`.
+    const std::string &
+    inflow_face() const
+    {
+      return inflow_face_;
+    }
+
   private:
     std::string
     path(const std::string &entry) const
@@ -127,6 +135,7 @@ namespace talus
     std::string               filling_          = "clipped";
     bool                      cut_by_obstacles_ = true;
     bool                      cut_by_mesh_      = false;
+    std::string               inflow_face_      = "none";
     InitialState<dim>         initial_state_;
   };
 } // namespace talus

@@ -8,6 +8,7 @@
 #include <talus/contact/point_confinement.h>
 #include <talus/problem/problem.h>
 #include <talus/simulation/background_mesh.h>
+#include <talus/simulation/inflow.h>
 #include <talus/simulation/step_agreement.h>
 #include <talus/simulation/time_step.h>
 #include <talus/state/state.h>
@@ -76,6 +77,12 @@ namespace talus
       return merger_;
     }
 
+    Inflow<dim> &
+    inflow()
+    {
+      return inflow_;
+    }
+
   private:
     void
     merge();
@@ -102,6 +109,7 @@ namespace talus
     PointConfinement<dim> confinement_;
     Splitter<dim>         splitter_;
     Merger<dim>           merger_;
+    Inflow<dim>           inflow_;
     TimeStep<dim>         time_step_;
     GroupMemory<dim>      groups_; ///< scratch memory of a step
     StepAgreement         agreement_;
