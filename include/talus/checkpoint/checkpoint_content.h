@@ -24,7 +24,7 @@ namespace talus
 
   /// Version of the file format. Increase when old and new versions of talus
   /// cannot read each other's files.
-  constexpr unsigned int checkpoint_format = 11;
+  constexpr unsigned int checkpoint_format = 12;
 
   /// Summary of a checkpoint.
   struct CheckpointHead
