@@ -139,10 +139,11 @@ namespace talus
     {
       GDALAllRegister();
       esri_grid_ = geoclaw_as_esri_grid(path);
-      file_      = esri_grid_.empty()
-                     ? open((has_byte_order_mark(path) ? "/vsisubfile/3," : "") +
-                       path.string())
-                     : open_text(esri_grid_);
+      if (!esri_grid_.empty())
+        file_ = open_text(esri_grid_);
+      else
+        file_ = open((has_byte_order_mark(path) ? "/vsisubfile/3," : "") +
+                     path.string());
       check(file_ != nullptr,
             text("is no Esri ASCII grid, which begins with ncols or another "
                  "keyword, and GDAL cannot read it (",

@@ -148,9 +148,9 @@ namespace validation_test
 
     /// How far [m] a frustum of soil slumps by its own weight when its mould is
     /// lifted: a layer flows out until the weight above, which it keeps, is
-    /// carried by @p k times the yield stress @p tau [Pa] on its wider area; k is
-    /// 2 by Tresca's criterion, sqrt(3) by von Mises' (@cite pashias1996). Radii
-    /// @p top and @p bottom and @p height [m], weight @p gamma [N/m^3].
+    /// carried by @p k times the yield stress @p tau [Pa] on its wider area; k
+    /// is 2 by Tresca's criterion, sqrt(3) by von Mises' (@cite pashias1996).
+    /// Radii @p top and @p bottom and @p height [m], weight @p gamma [N/m^3].
     double
     slump_by_theory(const double height,
                     const double top,

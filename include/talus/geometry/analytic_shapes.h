@@ -109,8 +109,8 @@ namespace talus
 
 
 
-  /// Prism over a plane shape: along z over a shape in the x-y plane, or upright
-  /// over an outline in plan, whose first axis is x, the second z.
+  /// Prism over a plane shape: along z over a shape in the x-y plane, or
+  /// upright over an outline in plan, whose first axis is x, the second z.
   class Prism : public Shape<3>
   {
   public:

@@ -16,8 +16,8 @@ namespace stiffness_test
 
 
 
-  /// Return the remark on soil of Poisson's ratio @p nu whose weight is @p share
-  /// of Young's modulus; empty if there is none.
+  /// Return the remark on soil of Poisson's ratio @p nu whose weight is
+  /// @p share of Young's modulus; empty if there is none.
   std::string
   remark(const double       share,
          const double       nu,
