@@ -275,8 +275,9 @@ namespace talus
         required_axes(points, grid, p, segment.cell, cell_size);
       if (axes == 0)
         count.at_length_limit += is_stretched(points, p);
-      else if (points.data(points.generation)[p] >= maximum_generation_)
-        ++count.at_generation_limit;
+      else if (const double generation = points.data(points.generation)[p];
+               generation >= maximum_generation_)
+        count.at_generation_limit += generation < divided_by_others;
       else if (!children_may_stay(points, p, axes, cell_size, grid))
         ++count.at_mesh_limit;
     });

@@ -18,9 +18,6 @@ namespace talus
     /// the filling [-]. A feeding point has 0.5 to 1.5 times this mass, and
     /// is never much lighter than the neighbours.
     constexpr double max_mass = 1.5;
-
-    /// Generation of feeding points, beyond each limit of the splitter.
-    constexpr double generation_of_feeding_points = 1e9;
   } // namespace
 
 
@@ -151,7 +148,7 @@ namespace talus
         points.data(points.length_at_creation, e)[p] *= factor;
       }
     points.data(line_density_)[p]     = points.data(points.mass)[p] / length;
-    points.data(points.generation)[p] = generation_of_feeding_points;
+    points.data(points.generation)[p] = Splitter<dim>::divided_by_others;
   }
 
 

@@ -171,6 +171,19 @@ class Report(ReportCase):
         tiles = "".join(page.root.itertext())
         self.assertIn("Of the front from its start, along the way of the slide", tiles)
 
+    def test_inflow(self):
+        """What enters belongs to the balances of mass and energy."""
+        folder = self.slide("inflow", "Grid/Cell size=0.25", "End time=1",
+                            file="verification/plug-inflow.prm")
+        page = self.report(folder)
+        for words in ("soil was lost or made", "stretched too far", "does not close"):
+            self.assertNotIn(words, page.said("notices"))
+        entered = float(read_csv(folder / "statistics.csv")[-1]["inflow mass [kg]"])
+        self.assertAlmostEqual(entered, 1000, 9)
+        self.assertEqual(float(page.values["inflow mass [kg]"]), entered)
+        self.assertIn("less what entered, changed by at most", page.said("mass"))
+        self.assertIn("nothing but round-off", page.said("mass"))
+
     def test_outflow(self):
         """Soil that left is told, and no error of mass."""
         folder = self.slide("outflow", "Grid/Upper corner=54, 6", "Boundaries/Right=outflow",

@@ -21,7 +21,8 @@ def energy_scale(statistics):
     none, the energy that the soil began with or that the boundaries gave."""
     gravity = numpy.abs(statistics["gravity work [J]"]).max()
     start = statistics["kinetic energy [J]"][0] + abs(statistics["elastic energy [J]"][0])
-    driven = numpy.abs(statistics["contact work [J]"]).max()
+    driven = max(numpy.abs(statistics[name]).max() for name in
+                 ("contact work [J]", "inflow energy [J]") if name in statistics)
     return (gravity, "the work of gravity") if gravity > 0 else (
         max(start, driven), "the energy at the start or from the boundaries")
 
@@ -68,7 +69,7 @@ def energy(run):
 
 def mass(run):
     """Points that were lost or made."""
-    values = run.statistics["mass [kg]"] + run.outflow("mass", "kg")
+    values = run.balanced_mass()
     change = numpy.abs(values - values[0]).max()
     if change <= MASS * values[0]:
         return []

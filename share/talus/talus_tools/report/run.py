@@ -130,11 +130,20 @@ class Run(Results):
         given = float(self.entries.get(f"{section}/Smallest thickness", "").strip() or 0)
         return given or 0.1 * float(self.entries.get("Grid/Cell size", "0"))
 
-    def outflow(self, name, unit):
+    def outflow(self, name, unit, kind="outflow"):
         """History of what left through outflow faces; zeros where the run has none."""
-        column = f"outflow {name} [{unit}]"
+        column = f"{kind} {name} [{unit}]"
         return self.statistics[column] if column in self.statistics else numpy.zeros(
             len(self.statistics))
+
+    def inflow(self, name, unit):
+        """History of what entered through faces; zeros where nothing can."""
+        return self.outflow(name, unit, "inflow")
+
+    def balanced_mass(self):
+        """History of the mass inside, plus what left, less what entered [kg]."""
+        return (self.statistics["mass [kg]"] + self.outflow("mass", "kg")
+                - self.inflow("mass", "kg"))
 
     def is_writing(self):
         """Whether a run holds the lock of the folder now."""

@@ -24,6 +24,7 @@ ENERGIES = {
     "damping work [J]": ("work of damping", "Used up by numerical damping; none unless asked "
                          "for."),
     "outflow energy [J]": ("energy of outflow", "Taken along by soil that left the mesh."),
+    "inflow energy [J]": ("energy of inflow", "Brought by soil that entered the mesh."),
     "energy remainder [J]": ("remainder", "What the sum of all others misses: an error of the "
                              "method, positive where energy was lost."),
 }
@@ -31,12 +32,16 @@ ENERGIES = {
 
 def mass(run):
     """The mass must stay what it was."""
-    values = run.statistics["mass [kg]"] + run.outflow("mass", "kg")
+    values = run.balanced_mass()
     change = numpy.abs(values - values[0]).max() / values[0]
     table = summary(run, {
         "mass [kg]": ("mass", "The points carry it; none may be lost."),
-        "outflow mass [kg]": ("mass that left", "Through faces of outflow.")})
-    what = "The mass, with what left," if run.outflow("mass", "kg").any() else "The mass"
+        "outflow mass [kg]": ("mass that left", "Through faces of outflow."),
+        "inflow mass [kg]": ("mass that entered", "Through faces of inflow.")})
+    passed = [words for words, history in (("with what left", run.outflow("mass", "kg")),
+                                           ("less what entered", run.inflow("mass", "kg")))
+              if history.any()]
+    what = ", ".join(["The mass", *passed]) + ("," if passed else "")
     said = (f"{what} did not change by a single bit." if change == 0 else
             f"{what} changed by at most {plain(change)} of itself. " +
             ("That is nothing but round-off." if change < 1e-9 else
