@@ -97,7 +97,7 @@ draw pipe_flow $here/pipe-flow.png \
           $scratch/pipe-0=smooth $scratch/pipe-1e3=rough
 draw validation $here/validation.png $scratch
 for tool in study calibrate; do
-  share/talus/talus-$tool prm/validation/gypsum-study.prm --program "$talus" \
+  share/talus/talus-$tool share/talus/gypsum-study.prm --program "$talus" \
       --output "$scratch/gypsum-study"
 done
 cp "$scratch/gypsum-study/calibration.png" $here/gypsum-calibration.png

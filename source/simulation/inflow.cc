@@ -329,10 +329,16 @@ namespace talus
   void
   Inflow<dim>::list_quantities(Quantities &list) const
   {
-    if (is_open())
-      list.push_back({"inflow mass",
-                      "kg",
-                      Utilities::MPI::sum(mass_, state_.communicator())});
+    if (!is_open())
+      return;
+    list.push_back(
+      {"inflow mass", "kg", Utilities::MPI::sum(mass_, state_.communicator())});
+    append_vector<dim>(list,
+                       "inflow momentum",
+                       "kg m/s",
+                       Utilities::MPI::sum(state_.accounts.impulse(
+                                             "inflow momentum"),
+                                           state_.communicator()));
   }
 
 

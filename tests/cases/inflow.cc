@@ -64,6 +64,12 @@ namespace inflow_test
     gates.at_most("mass inside less entered: change / mass",
                   error_of_sum(table, "mass [kg]", "inflow mass [kg]") / mass,
                   1e-12);
+    gates.at_most("momentum inside less entered: change / momentum",
+                  error_of_sum(table,
+                               "momentum x [kg m/s]",
+                               "inflow momentum x [kg m/s]") /
+                    mass,
+                  1e-12);
     gates.at_most("front: error [m]", front_error, 1e-9);
     gates.near("kinetic energy [J]",
                table["kinetic energy [J]"].back(),

@@ -183,6 +183,7 @@ class Report(ReportCase):
         self.assertEqual(float(page.values["inflow mass [kg]"]), entered)
         self.assertIn("less what entered, changed by at most", page.said("mass"))
         self.assertIn("nothing but round-off", page.said("mass"))
+        self.assertIn("impulse of inflow", page.said("momentum"))
 
     def test_outflow(self):
         """Soil that left is told, and no error of mass."""

@@ -68,6 +68,9 @@ def impulses(run):
         added = table["added mass momentum x [kg m/s]"]
         result.append(("added mass", added[0] - added,
                        "What the soil gave to the water that moves with it."))
+    if run.inflow("mass", "kg").any():
+        result.append(("inflow", run.inflow("momentum x", "kg m/s"),
+                       "What soil that entered brought along."))
     if run.outflow("mass", "kg").any():
         result.append(("outflow", -run.outflow("momentum x", "kg m/s"),
                        "What soil that left took along."))
