@@ -149,6 +149,25 @@ class Ranks(Runs):
             self.assert_same(read_table(self.folder / f"ranks-{n_ranks}" / "runout.csv"),
                              runout)
 
+    def test_inflow(self):
+        """The rank with the opening makes the points, and the cells are shared
+        out anew as they flow on; also through the right face."""
+        left = TERSE + BALANCE
+        right = left + ["Boundaries/Left=free", "Boundaries/Left velocity=",
+                        "Boundaries/Right=velocity", "Boundaries/Right velocity=-1; free",
+                        "Bodies/plug/Lower corner=2.5, 0", "Bodies/plug/Upper corner=3, 0.5",
+                        "Bodies/plug/Initial velocity=-1; 0", "Bodies/plug/Inflow face=Right"]
+        for settings, n_ranks in ((left, 2), (right, 3)):
+            table = self.run_on(n_ranks, settings, "verification/plug-inflow.prm")
+            for t, mass, front, rear in zip(table["time [s]"], table["mass [kg]"],
+                                            table["front x [m]"], table["rear x [m]"]):
+                self.assertAlmostEqual(mass / (500 + 1000 * t), 1, 11)
+                end = rear - 2.53125 if settings is right else 0.46875 - front
+                self.assertAlmostEqual(end, -t, 9)
+            self.assertLess(largest(table["energy remainder [J]"]), 1e-8)
+            self.assertEqual(table["points"][-1], 320)
+            self.assertGreater(self.changes(f"ranks-{n_ranks}")[1], 1)
+
     def test_obstacles(self):
         """A seabed through a mesh that changes; a pipe that moves."""
         slide = "landslide-inclined.prm"
