@@ -67,6 +67,15 @@ namespace talus
                   "middle of the raster, measured on the map.",
                   this->prm,
                   Patterns::Double(0.));
+    add_plan_parameters();
+  }
+
+
+
+  template <int dim>
+  void
+  NamedSurface<dim>::add_plan_parameters()
+  {
     add_parameter(
       "Section",
       section_,

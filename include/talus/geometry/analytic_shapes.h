@@ -114,8 +114,8 @@ namespace talus
   class Prism : public Shape<3>
   {
   public:
-    /// From @p lower to @p upper, m, possibly infinite, along @p axis: 2, or 1
-    /// for upright.
+    /// Construct the prism over @p base between the ends @p lower and @p upper,
+    /// m, possibly infinite, along @p axis: 2 for z, 1 for y, upright.
     Prism(std::unique_ptr<const Shape<2>> base,
           double                          lower,
           double                          upper,

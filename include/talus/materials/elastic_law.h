@@ -36,13 +36,6 @@ namespace talus
       return poisson_ratio_ > 0.4;
     }
 
-    /// Poisson's ratio for small strains [-].
-    double
-    poisson_ratio() const
-    {
-      return poisson_ratio_;
-    }
-
   protected:
     Moduli
     moduli() const;

@@ -82,8 +82,8 @@ namespace talus
   Remark
   remark_on_contact_area(double time, const Quantities &areas);
 
-  /// Remark that plastic soil moves faster than a third of the speed of its
-  /// waves, so that impacts compress the soil. Collective.
+  /// Remark that plastic soil moves faster than 0.45 times the speed of the
+  /// waves in it, so that impacts compress the soil. Collective.
   template <int dim>
   Remark
   remark_on_speed(const State<dim> &state, const Materials<dim> &materials);

@@ -103,6 +103,8 @@ namespace talus
     map() const;
 
   private:
+    void
+    add_plan_parameters();
     Raster
     read_file(const std::filesystem::path &file, const Box<2> &plan) const;
     std::shared_ptr<const Surface<dim>>
