@@ -189,7 +189,8 @@ namespace talus
         const double      size   = cell.size * (cell.uniform ? 1. : 0.5);
         members_.clear();
         for (unsigned int p = segment.begin; p < segment.end; ++p)
-          if (merge_ == "all" || points.data(points.generation)[p] > 0)
+          if (!points.feeds(p) &&
+              (merge_ == "all" || points.data(points.generation)[p] > 0))
             members_.push_back(p);
         double of_segment = 0;
         for (unsigned int d = 0; d < dim; ++d)

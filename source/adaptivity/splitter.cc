@@ -236,6 +236,8 @@ namespace talus
                                double            &cell_size) const
   {
     cell_size = grid.cells()[cell].size;
+    if (points.feeds(p))
+      return 0;
     const unsigned int axes =
       grid.cells()[cell].uniform
         ? axes_to_split(points, p, cell_size)
@@ -274,10 +276,9 @@ namespace talus
       const unsigned int axes =
         required_axes(points, grid, p, segment.cell, cell_size);
       if (axes == 0)
-        count.at_length_limit += is_stretched(points, p);
-      else if (const double generation = points.data(points.generation)[p];
-               generation >= maximum_generation_)
-        count.at_generation_limit += generation < divided_by_others;
+        count.at_length_limit += !points.feeds(p) && is_stretched(points, p);
+      else if (points.data(points.generation)[p] >= maximum_generation_)
+        ++count.at_generation_limit;
       else if (!children_may_stay(points, p, axes, cell_size, grid))
         ++count.at_mesh_limit;
     });
@@ -337,7 +338,7 @@ namespace talus
   {
     n_on_other_ranks_ = n_points - n_own;
     AssertThrow(n_points <= maximum_points_,
-                ExcPoint(text("Splitting has made ",
+                ExcPoint(text("There are ",
                               n_points,
                               " points on all ranks, more than 'Splitting/"
                               "Maximum number of points' = ",

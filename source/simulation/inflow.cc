@@ -3,6 +3,7 @@
 #include <talus/simulation/inflow.h>
 #include <talus/transfer/box_rule.h>
 
+#include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -35,7 +36,7 @@ namespace talus
 
   template <int dim>
   void
-  Inflow<dim>::prepare(const bool merges)
+  Inflow<dim>::prepare()
   {
     faces_.assign(problem_.bodies().size(), numbers::invalid_unsigned_int);
     bool is_open = false;
@@ -58,19 +59,13 @@ namespace talus
                                 "the law of the body is hyperelastic: new "
                                 "soil would have no reference shape. Choose "
                                 "another law."));
-            AssertThrow(!merges,
-                        ExcUser(entry +
-                                "'Splitting/Merge' is true; points at the "
-                                "opening must not be merged. Set it false."));
             faces_[b] = face;
             is_open   = true;
           }
     if (!is_open)
       return faces_.clear();
-    line_density_ = state_.points.add_column("inflow mass per length",
-                                             "kg/m",
-                                             1,
-                                             Inheritance::copied);
+    state_.points.inflow_density = state_.points.add_column(
+      "inflow mass per length", "kg/m", 1, Inheritance::copied);
     state_.accounts.open_energy("inflow energy",
                                 Accounts<dim>::EnergyKind::supplied);
     state_.accounts.open_impulse("inflow momentum");
@@ -147,8 +142,8 @@ namespace talus
         points.data(points.box_length, e)[p] *= factor;
         points.data(points.length_at_creation, e)[p] *= factor;
       }
-    points.data(line_density_)[p]     = points.data(points.mass)[p] / length;
-    points.data(points.generation)[p] = Splitter<dim>::divided_by_others;
+    points.data(points.inflow_density)[p] =
+      points.data(points.mass)[p] / length;
   }
 
 
@@ -180,6 +175,42 @@ namespace talus
 
 
 
+  /// Speed into the mesh at the opening of point @p p, m/s: the mesh moves the
+  /// soil at the face with the values of the expression at the nodes, and as
+  /// much must enter, whatever the expression is between the nodes.
+  template <int dim>
+  double
+  Inflow<dim>::speed_of_entry(const unsigned int p) const
+  {
+    const Points<dim> &points = state_.points;
+    const unsigned int face = face_of(p), d = face / 2;
+    const Point<dim>   x    = load_place(points, points.initial_position, p);
+    const Cell<dim>   &cell = state_.grid.cells()[state_.grid.find_cell(x)];
+    Point<dim>         unit((x - cell.lower) / cell.size);
+    unit[d]      = face % 2;
+    double speed = 0.;
+    for (unsigned int v = 0; v < power(2, dim); ++v)
+      if (const double weight =
+            GeometryInfo<dim>::d_linear_shape_function(unit, v);
+          weight > 0.)
+        speed += weight *
+                 problem_.boundaries.normal_velocity(
+                   face, cell.vertex(v), state_.time + 0.5 * state_.time_step);
+    if (face % 2 == 1)
+      speed = -speed;
+    AssertThrow(speed >= 0.,
+                ExcPoint(text("The velocity of the inflow at (",
+                              x,
+                              ") m points out of the mesh: ",
+                              -speed,
+                              " m/s at t = ",
+                              state_.time,
+                              " s. Give a velocity into the mesh, or 0.")));
+    return speed;
+  }
+
+
+
   /// The lengths of all edges but the edge along the normal are kept. The shape
   /// of the soil that has entered does not change: the centre moves by half of
   /// the growth towards the face.
@@ -190,22 +221,8 @@ namespace talus
     Points<dim>       &points = state_.points;
     const unsigned int face = face_of(p), d = face / 2;
     const double       inwards = (face % 2 == 0 ? 1. : -1.);
-    Point<dim>         x       = load_place(points, points.initial_position, p);
-    const Box<dim>    &domain  = state_.grid.domain();
-    x[d] = (face % 2 == 0 ? domain.lower[d] : domain.upper[d]);
-    const double speed =
-      inwards * problem_.boundaries.normal_velocity(
-                  face, x, state_.time + 0.5 * state_.time_step);
-    AssertThrow(speed >= 0.,
-                ExcPoint(text("The velocity of the inflow at (",
-                              x,
-                              ") m points out of the mesh: ",
-                              -speed,
-                              " m/s at t = ",
-                              state_.time,
-                              " s. Give a velocity into the mesh, or 0.")));
-    const double mass =
-      points.data(line_density_)[p] * speed * state_.time_step;
+    const double       mass    = points.data(points.inflow_density)[p] *
+                        speed_of_entry(p) * state_.time_step;
     const double growth = mass / points.data(points.mass)[p];
     const auto   v      = load_vector(points, points.velocity, p);
     const auto  &water  = state_.constants.added_mass;
@@ -272,7 +289,7 @@ namespace talus
     Points<dim>       &points = state_.points;
     const unsigned int face = face_of(p), d = face / 2;
     const double       inwards = (face % 2 == 0 ? 1. : -1.);
-    const double       share   = 1. - points.data(line_density_)[p] *
+    const double       share   = 1. - points.data(points.inflow_density)[p] *
                                 points.data(points.length_at_creation, d)[p] /
                                 points.data(points.mass)[p];
     const unsigned int q = points.append(1);
@@ -294,8 +311,7 @@ namespace talus
       }
     points.data(points.box_length, d)[p] *= 1. - share;
     update_box_lengths(points, p, p + 1, state_.constants.box_shape.rule);
-    points.data(line_density_)[p]     = 0.;
-    points.data(points.generation)[p] = 0.;
+    points.data(points.inflow_density)[p] = 0.;
     take_shape_of_opening(q);
   }
 
@@ -310,12 +326,12 @@ namespace talus
     Points<dim>       &points = state_.points;
     const unsigned int n      = points.size();
     for (unsigned int p = 0; p < n; ++p)
-      if (points.data(line_density_)[p] > 0.)
+      if (points.feeds(p))
         {
           const unsigned int d = face_of(p) / 2;
           grow(p);
           if (points.data(points.mass)[p] >=
-              max_mass * points.data(line_density_)[p] *
+              max_mass * points.data(points.inflow_density)[p] *
                 points.data(points.length_at_creation, d)[p])
             divide(p);
           if (p < points.n_sorted())

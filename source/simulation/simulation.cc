@@ -151,7 +151,7 @@ namespace talus
     scheme_.splitter().prepare(state_.constants.box_shape);
     scheme_.merger().prepare(scheme_.splitter(), state_.constants.box_shape);
     problem_.open_accounts(state_.accounts);
-    scheme_.inflow().prepare(scheme_.merger().is_enabled());
+    scheme_.inflow().prepare();
     scheme_.merger().open_accounts(state_.accounts);
   }
 

@@ -148,9 +148,6 @@ namespace talus
       id_stride_ = stride;
     }
 
-    /// Generation of points that another part of the program divides.
-    static constexpr double divided_by_others = 1e9;
-
     /// Return an id for a new point on this rank.
     double
     take_id()

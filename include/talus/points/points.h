@@ -163,6 +163,18 @@ namespace talus
       return size_;
     }
 
+    /// Column of the mass of a feeding point per length along the normal of its
+    /// face at the start, kg/m; 0 for other points. Opened by Inflow.
+    unsigned int inflow_density = dealii::numbers::invalid_unsigned_int;
+
+    /// Whether point @p p feeds an inflow: only Inflow divides it.
+    bool
+    feeds(const unsigned int p) const
+    {
+      return inflow_density != dealii::numbers::invalid_unsigned_int &&
+             data(inflow_density)[p] > 0.;
+    }
+
     unsigned int
     n_sorted() const
     {

@@ -26,10 +26,10 @@ namespace talus
     Inflow(State<dim> &state, Problem<dim> &problem, Splitter<dim> &splitter);
 
     /// Open columns and accounts if a body has an inflow. Throws ExcUser if the
-    /// face has no prescribed normal velocity, if points are merged
-    /// (@p merges), or if the law does not allow growing points.
+    /// face has no prescribed normal velocity or if the law does not allow
+    /// growing points.
     void
-    prepare(bool merges);
+    prepare();
 
     /// Mark the points that feed. Throws ExcUser if a body does not touch its
     /// face. Collective.
@@ -63,6 +63,8 @@ namespace talus
     touches_face(unsigned int p) const;
     void
     start_feeding(unsigned int p);
+    double
+    speed_of_entry(unsigned int p) const;
     void
     grow(unsigned int p);
     void
@@ -73,11 +75,8 @@ namespace talus
     State<dim>               &state_;
     Problem<dim>             &problem_;
     Splitter<dim>            &splitter_;
-    std::vector<unsigned int> faces_; ///< by body; invalid: no inflow
-    /// Column: mass of a feeding point per length along the normal of the face
-    /// at the start, kg/m; 0 for other points.
-    unsigned int line_density_ = 0;
-    double       mass_         = 0; ///< mass that entered on this rank, kg
+    std::vector<unsigned int> faces_;    ///< by body; invalid: no inflow
+    double                    mass_ = 0; ///< mass that entered on this rank, kg
   };
 } // namespace talus
 
