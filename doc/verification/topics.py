@@ -68,8 +68,9 @@ PAGES = [
         ("Dam breaks", ["SyrupDamBreak", "SyrupDamBreakFine", "SyrupChannel",
                         "BeadDamBreak", "BeadDamBreakFine"]),
         ("Spreading and slumps",
-         ["ViscousSpreading", "ViscousSpreadingFine", "CylinderSlump",
-          "CylinderSlumpFine", "AbramsCone", "AbramsConeFine"]),
+         ["ViscousSpreading", "ViscousSpreadingFine", "XanthanGum",
+          "XanthanGumFine", "CylinderSlump", "CylinderSlumpFine",
+          "AbramsCone", "AbramsConeFine"]),
     ]),
 ]
 

@@ -93,4 +93,37 @@ namespace inflow_test
     EXPECT_LE(error_of_sum(table, "mass [kg]", "inflow mass [kg]"),
               1e-12 * entered);
   }
+
+
+
+  // The mesh moves the soil at the face linearly between the nodes.
+  TEST(Inflow, MassIsTheMassThatTheMeshMoves)
+  {
+    const Table table =
+      run<2>(file,
+             "plug-profile",
+             {"Boundaries/Left velocity=1 + y^2; free", "End time=0.1"});
+    const double cell = 0.125, thickness = 0.5, density = 2000.;
+    const double trapezoidal_rule = thickness + std::pow(thickness, 3) / 3. +
+                                    cell * cell / 12. * 2. * thickness;
+    const double entered = density * trapezoidal_rule * 0.1;
+    EXPECT_NEAR(table["inflow mass [kg]"].back(), entered, 1e-12 * entered);
+  }
+
+
+
+  // Points that feed are not merged, and the mesh may follow the soil.
+  TEST(Inflow, FedPointsAreMerged)
+  {
+    const Table  table = run<2>(file,
+                               "plug-merged",
+                               {"Splitting/Merge=all",
+                                 "Mesh tracking/Enabled=true",
+                                 "Bodies/plug/Points per cell and axis=4"});
+    const double mass  = mass_at_start + 2. * mass_per_length;
+    EXPECT_GT(table["merges"].back(), 500);
+    EXPECT_NEAR(table["mass [kg]"].back(), mass, 1e-12 * mass);
+    EXPECT_NEAR(table["momentum x [kg m/s]"].back(), mass, 1e-12 * mass);
+    EXPECT_NEAR(table["centre x [m]"].back(), 1.25, 1e-12);
+  }
 } // namespace inflow_test

@@ -94,7 +94,8 @@ namespace validation_test
 
 
 
-    const std::string front = "front of 99.5 % mass x [m]";
+    const std::string front       = "front of 99.5 % mass x [m]";
+    const std::string beyond_gate = "front beyond the gate";
 
 
 
@@ -196,21 +197,23 @@ namespace validation_test
 
 
 
-    /// Hold the front @p x against @p exact, with the error @p limit.
+    /// Hold the distance @p x, called @p what, against @p exact, with the error
+    /// @p limit.
     void
-    hold_front(Verification     &gates,
-               const int         time,
-               const double      x,
-               const double      exact,
-               const double      limit,
-               const Shortfalls &shortfalls)
+    hold_front(Verification      &gates,
+               const std::string &what,
+               const int          time,
+               const double       x,
+               const double       exact,
+               const double       limit,
+               const Shortfalls  &shortfalls)
     {
       const std::string when  = " at " + std::to_string(time) + " s";
       const auto        found = shortfalls.find(time);
       if (found == shortfalls.end())
-        gates.near("front beyond the gate" + when + " [m]", x, exact, limit);
+        gates.near(what + when + " [m]", x, exact, limit);
       else
-        gates.falls_short("error of the front beyond the gate" + when,
+        gates.falls_short("error of the " + what + when,
                           std::abs(x - exact) / exact,
                           limit,
                           found->second);
@@ -232,6 +235,7 @@ namespace validation_test
                          "lubrication theory, viscometer");
       for (const int time : {1, 2, 5, 10, 20})
         hold_front(gates,
+                   beyond_gate,
                    time,
                    table.at(time, front) - 0.2,
                    theory.front_at(time),
@@ -272,6 +276,7 @@ namespace validation_test
                          "measured, rheology fitted by lubrication theory");
       for (const int time : {2, 5, 10, 20, 24})
         hold_front(gates,
+                   beyond_gate,
                    time,
                    table.at(time, front) - 0.2,
                    outcome.at(time, "front beyond the gate [m]"),
@@ -301,6 +306,89 @@ namespace validation_test
                                       (3. * 50. / 970.),
                                     0.125),
                    0.04);
+    }
+
+
+
+    /// Radius [m] at 1 s of a power-law fluid that spreads on a plate from a
+    /// source of constant discharge, by lubrication theory; it grows as
+    /// t^@p beta. With xi = r/R and psi the volume beyond xi, in units that take
+    /// all coefficients out of the balance of the volume beyond a circle:
+    /// g^(n+2) (-dg/dxi)^n = psi/(2 pi xi) + beta xi g, from the front inwards.
+    /// @param discharge m^3/s
+    /// @param mobility rho g/K, with gdot = (tau/K)^n
+    double
+    similarity_radius(const double discharge,
+                      const double mobility,
+                      const double n,
+                      const double beta)
+    {
+      const unsigned int n_steps = 10000;
+      double             y = 0., psi = 0.; // y = g^((2n+1)/n)
+      for (unsigned int i = 0; i < n_steps; ++i)
+        {
+          const double xi   = 1. - (i + 0.5) / n_steps;
+          const double flow = psi / std::pow(y, n / (2. * n + 1.));
+          y += (2. * n + 1.) / n / n_steps *
+               std::pow((i == 0 ? 0. : flow / (2. * M_PI * xi)) + beta * xi,
+                        1. / n);
+          psi += 2. * M_PI * xi * std::pow(y, n / (2. * n + 1.)) / n_steps;
+        }
+      return std::pow(std::pow(mobility, n) / (n + 2.) *
+                        std::pow(discharge / psi, 2. * n + 1.),
+                      1. / (5. * n + 3.));
+    }
+
+
+
+    /// Hold the radius of the gum at @p times, s, against measurement and theory.
+    /// Returns the exponent with which it grows between the first and the last.
+    double
+    hold_gum(const std::string      &cell,
+             const Overrides        &overrides,
+             const std::vector<int> &times,
+             const Shortfalls       &of_measured,
+             const Shortfalls       &of_theory)
+    {
+      const std::string file = "prm/validation/xanthan-gum.prm";
+      const std::string name =
+        "Gum that spreads from a tube, cells of " + cell + " m";
+      const Table table =
+        run<3>(file.substr(4),
+               "xanthan-gum-" + cell,
+               overrides + Overrides{"Grid/Cell size=" + cell});
+      const Table  outcome   = measured("xanthan-gum");
+      const double discharge = 3.8173e-6, n = 5.9; // m^3/s, -
+      const double beta = (2. * n + 2.) / (5. * n + 3.);
+      const double unit =
+        similarity_radius(discharge, 1000. * g / 20.27, n, beta);
+      // The gum at the start entered before.
+      const double start = 4. * table["mass [kg]"].front() / 1000. / discharge;
+      Verification in_laboratory(name, file, "measured");
+      Verification in_theory(name, file, "similarity solution");
+      std::vector<double> log_time, log_radius;
+      for (const int time : times)
+        {
+          const double r = 0.5 * (table.at(time - start, "front x [m]") +
+                                  table.at(time - start, "front z [m]"));
+          hold_front(in_laboratory,
+                     "radius",
+                     time,
+                     r,
+                     outcome.at(time, "radius [m]"),
+                     0.05,
+                     of_measured);
+          hold_front(in_theory,
+                     "radius",
+                     time,
+                     r,
+                     unit * std::pow(time, beta),
+                     0.05,
+                     of_theory);
+          log_time.push_back(std::log(time));
+          log_radius.push_back(std::log(r));
+        }
+      return slope(log_time, log_radius, 0., 1e9);
     }
 
 
@@ -446,6 +534,28 @@ namespace validation_test
   TEST(ViscousSpreadingFine, Radius)
   {
     hold_spreading("0.005");
+  }
+
+
+
+  TEST(XanthanGum, Radius)
+  {
+    const double exponent = hold_gum("0.005", {}, {6, 10, 20, 40, 60}, {}, {});
+    Verification gates("Gum that spreads from a tube, cells of 0.005 m",
+                       "prm/validation/xanthan-gum.prm",
+                       "measured, all times: 0.425");
+    gates.at_most("distance of the exponent in time from 0.425",
+                  std::abs(exponent - 0.425),
+                  0.01);
+  }
+
+  TEST(XanthanGumFine, Radius)
+  {
+    hold_gum("0.0025",
+             {"End time=17.6", "Grid/Upper corner=0.07, 0.03, 0.07"},
+             {10, 20},
+             {},
+             {});
   }
 
 
