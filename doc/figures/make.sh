@@ -64,6 +64,7 @@ run syrup prm/validation/syrup-dam-break.prm
 run syrup-channel prm/validation/syrup-channel.prm
 run beads prm/validation/bead-dam-break.prm
 run spreading prm/validation/viscous-spreading.prm
+run gum prm/validation/xanthan-gum.prm
 strength='Undrained shear strength'
 for stress in 0.05 0.10 0.20; do # over rho g H = 1471.5 Pa
   for base in fixed roller; do

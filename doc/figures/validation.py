@@ -3,8 +3,8 @@
 
     python3 validation.py PICTURE.png FOLDER
 
-FOLDER has the runs of make.sh: syrup, syrup-channel, beads, spreading, cylinder-BASE-STRESS and
-cone-STRESS.
+FOLDER has the runs of make.sh: syrup, syrup-channel, beads, spreading, cylinder-BASE-STRESS,
+cone-STRESS and gum.
 """
 
 import os
@@ -130,16 +130,26 @@ def draw_cone(axes, scratch):
              title="(e) Abrams' cone: slump [cm]")
 
 
+def draw_gum(axes, scratch):
+    axes.loglog(*measured("xanthan-gum"), ".", color="black", markersize=3, label="measured")
+    times = numpy.array([3, 746])
+    axes.plot(times, 0.01507 * times**(13.8 / 32.5), "--", color=EXACT, label="lubrication theory")
+    table = statistics(os.path.join(scratch, "gum"))
+    # The gum at the start entered before.
+    time = table["time [s]"] + 4 * table["mass [kg]"][0] / 3.8173e-3
+    axes.plot(time, 0.5 * (table["front x [m]"] + table["front z [m]"]), color=SPLIT, label="talus")
+    axes.set(xlim=(2, 800), ylim=(0.015, 0.3), xlabel="time [s]",
+             title="(f) xanthan gum from a tube: radius [m]")
+
+
 def main(picture, scratch):
     """Draw all panels."""
     figure, axes = plt.subplots(2, 3, figsize=(9.6, 5.6), constrained_layout=True)
-    panels = (draw_syrup, draw_beads, draw_spreading, draw_cylinder, draw_cone)
+    panels = (draw_syrup, draw_beads, draw_spreading, draw_cylinder, draw_cone, draw_gum)
     for draw, panel in zip(panels, axes.flat):
         draw(panel, scratch)
         panel.grid(linewidth=0.3)
         panel.legend(fontsize=6.5)
-    for panel in axes.flat[len(panels):]:
-        panel.set_axis_off()
     save(figure, picture)
 
 

@@ -32,7 +32,8 @@ PAGES = [
         ("Pipes in clay", ["Pipe", "PipeRefined"]),
         ("Obstacles moved by forces", ["BodyOnSprings", "DraggedPipe"]),
         ("Water", ["BlockInWater", "SheetInWater"]),
-        ("Runout, rest and outflow", ["Runout", "Rest", "Inflow", "Outflow"]),
+        ("Runout, rest and outflow",
+         ["Runout", "Rest", "Inflow", "FedLayer", "Outflow"]),
     ]),
     ("statics", "Equilibrium and factor of safety", [
         ("Equilibrium",

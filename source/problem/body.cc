@@ -59,8 +59,9 @@ namespace talus
                   inflow_face_,
                   "Face of the mesh, with the condition 'velocity', through "
                   "which more soil of the body enters. The opening is the part "
-                  "of the face that the body touches at the start; the "
-                  "discharge is the normal velocity of the face, integrated "
+                  "of the face that the body touches at the start, with "
+                  "a row of points at least; the discharge is the normal "
+                  "velocity of the face, linear between the nodes, integrated "
                   "over the opening.",
                   this->prm,
                   Patterns::Selection(faces));

@@ -170,7 +170,8 @@ namespace talus
                                "' does not touch the face '",
                                face_names[faces_[b]],
                                "' of its inflow, so there is no opening. "
-                               "Let the body begin at the face.")));
+                               "Let the body begin at the face, with a row of "
+                               "points at least.")));
   }
 
 

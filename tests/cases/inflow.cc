@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 using namespace talus;
 using namespace talus::cases;
@@ -125,5 +126,26 @@ namespace inflow_test
     EXPECT_NEAR(table["mass [kg]"].back(), mass, 1e-12 * mass);
     EXPECT_NEAR(table["momentum x [kg m/s]"].back(), mass, 1e-12 * mass);
     EXPECT_NEAR(table["centre x [m]"].back(), 1.25, 1e-12);
+  }
+
+
+
+  // Means over the last 3 s, when the nose is 8 m farther down.
+  TEST(FedLayer, KeepsItsThickness)
+  {
+    const std::string layer = "verification/fed-layer.prm";
+    run<2>(layer, "fed-layer");
+    const Table  table(std::filesystem::path(TALUS_RESULTS_DIR) /
+                      "fed-layer/stations.csv");
+    Verification gates("Bingham layer that enters a slope",
+                       "prm/" + layer,
+                       "uniform flow of the discharge");
+    for (const std::string place : {"1", "2", "3"})
+      {
+        double sum = 0.;
+        for (const double t : {9.5, 10., 10.5, 11., 11.5, 12.})
+          sum += table.at(t, "at " + place + " m thickness [m]");
+        gates.near("thickness at " + place + " m [m]", sum / 6., 1., 0.05);
+      }
   }
 } // namespace inflow_test
