@@ -311,10 +311,11 @@ namespace validation_test
 
 
     /// Radius [m] at 1 s of a power-law fluid that spreads on a plate from a
-    /// source of constant discharge, by lubrication theory; it grows as
-    /// t^@p beta. With xi = r/R and psi the volume beyond xi, in units that take
-    /// all coefficients out of the balance of the volume beyond a circle:
-    /// g^(n+2) (-dg/dxi)^n = psi/(2 pi xi) + beta xi g, from the front inwards.
+    /// source of constant discharge, by lubrication theory; the radius grows as
+    /// t^@p beta. With xi = r/R and the volume psi beyond xi, in units that
+    /// leave no coefficients, the balance of the volume outside of a circle is
+    /// g^(n+2) (-dg/dxi)^n = psi/(2 pi xi) + beta xi g, integrated from the
+    /// front inwards.
     /// @param discharge m^3/s
     /// @param mobility rho g/K, with gdot = (tau/K)^n
     double
@@ -341,8 +342,8 @@ namespace validation_test
 
 
 
-    /// Hold the radius of the gum at @p times, s, against measurement and theory.
-    /// Returns the exponent with which it grows between the first and the last.
+    /// Hold the radius of the gum at @p times, s, against measurement and
+    /// theory. Returns the exponent of its growth in time.
     double
     hold_gum(const std::string      &cell,
              const Overrides        &overrides,
