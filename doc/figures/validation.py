@@ -138,6 +138,9 @@ def draw_gum(axes, scratch):
     # The gum at the start entered before.
     time = table["time [s]"] + 4 * table["mass [kg]"][0] / 3.8173e-3
     axes.plot(time, 0.5 * (table["front x [m]"] + table["front z [m]"]), color=SPLIT, label="talus")
+    for axis, ticks in ((axes.xaxis, (3, 10, 30, 100, 300)), (axes.yaxis, (0.02, 0.05, 0.1, 0.2))):
+        axis.set_ticks(ticks, labels=[str(tick) for tick in ticks])
+        axis.set_ticks([], minor=True)
     axes.set(xlim=(2, 800), ylim=(0.015, 0.3), xlabel="time [s]",
              title="(f) xanthan gum from a tube: radius [m]")
 
