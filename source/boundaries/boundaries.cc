@@ -84,6 +84,18 @@ namespace talus
 
 
 
+  template <int dim>
+  unsigned char
+  Boundaries<dim>::fixed_faces() const
+  {
+    unsigned char result = 0;
+    for (unsigned int face = 0; face < 2 * dim; ++face)
+      result |= (names_[face] == "fixed") << face;
+    return result;
+  }
+
+
+
   // Positions cost a loop over all owned cells, and memory for each node.
   template <int dim>
   void
@@ -249,15 +261,39 @@ namespace talus
                                 const unsigned int node,
                                 BoundaryWork<dim> &work)
   {
-    const auto constraints = constraints_at(state.grid.faces_of_node(node),
-                                            node,
-                                            state.time + 0.5 * state.time_step);
-    if (constraints.begin() != constraints.end())
-      record_walls(constraints,
-                   state.nodes,
-                   node,
-                   constraints.impose(state.nodes, node),
-                   work);
+    NodalFields<dim>   &nodes = state.nodes;
+    const unsigned char faces = state.grid.faces_of_node(node);
+    const auto          constraints =
+      constraints_at(faces, node, state.time + 0.5 * state.time_step);
+    if (constraints.begin() == constraints.end())
+      return;
+    Tensor<1, dim> impulse = constraints.impose(nodes, node);
+    if (faces & state.constants.held_faces)
+      {
+        // The mean of sheared soil at the node is no velocity of the soil at
+        // the wall: the wall bears the force, and the mean stays.
+        impulse -= nodes.mass(node) * nodes.increment(node);
+        nodes.set_motion(node, nodes.velocity(node), Tensor<1, dim>());
+      }
+    record_walls(constraints, nodes, node, impulse, work);
+  }
+
+
+
+  template <int dim>
+  void
+  Boundaries<dim>::hold_nodes(State<dim> &state, const bool is_recorded)
+  {
+    BoundaryWork<dim> work;
+    for (const unsigned int node : state.nodes.active_boundary_nodes())
+      if (state.grid.faces_of_node(node) & state.constants.held_faces)
+        {
+          const auto impulse = state.nodes.set_velocity(node, {});
+          state.nodes.set_motion(node, {}, {});
+          if (is_recorded)
+            record_walls(state, node, impulse, work);
+        }
+    work.record(state.accounts);
   }
 
 

@@ -169,7 +169,7 @@ namespace talus
     if (!transfer_.scheme().filters(state_.step))
       return;
     PhaseTimer::Scope scope(timer_, "filter");
-    filter_null_space(state_, transfer_);
+    filter_null_space(state_, transfer_, &problem_.boundaries);
   }
 
 

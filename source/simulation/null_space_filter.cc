@@ -42,7 +42,10 @@ namespace talus
     /// interpolated to them: one pass of XPIC, identical to PIC.
     template <int dim>
     void
-    pass_to_grid_and_back(State<dim> &state, const Transfer<dim> &transfer)
+    pass_to_grid_and_back(State<dim>            &state,
+                          const Transfer<dim>   &transfer,
+                          Boundaries<dim> *const boundaries,
+                          const bool             is_last)
     {
       // Forces are summed, too, but have no effect in a time step of length
       // zero.
@@ -60,6 +63,8 @@ namespace talus
       });
       state.nodes.sum_over_ranks(state.grid);
       state.nodes.update_momentum(time_step, state.constants.mass_cutoff);
+      if (boundaries)
+        boundaries->hold_nodes(state, is_last);
       state.nodes.share_with_ghosts(state.grid);
       // Only the velocities of the points change.
       state.points.for_each_batch([&](const Batch &batch) {
@@ -80,10 +85,14 @@ namespace talus
   // The velocity column itself is passed on, since the kernels read and write
   // it; a second transfer would have to be kept equal to the first. The cost is
   // m passes over points and nodes per filtering. Each pass conserves mass and
-  // momentum.
+  // momentum up to the impulse J of held nodes. With J_k of pass k the parts
+  // seen sum to the momentum of v plus J_1 + (J_2 - J_1) + ... = J_m: only the
+  // last pass is recorded.
   template <int dim>
   void
-  filter_null_space(State<dim> &state, const Transfer<dim> &transfer)
+  filter_null_space(State<dim>            &state,
+                    const Transfer<dim>   &transfer,
+                    Boundaries<dim> *const boundaries)
   {
     Points<dim> &points = state.points;
     filter_mean_stress(points, state.workspace, transfer);
@@ -95,9 +104,10 @@ namespace talus
         unseen[d].assign(v, v + n);
         seen[d].assign(n, 0.);
       }
-    for (unsigned int pass = 0; pass < transfer.scheme().filter_order(); ++pass)
+    const unsigned int order = transfer.scheme().filter_order();
+    for (unsigned int pass = 0; pass < order; ++pass)
       {
-        pass_to_grid_and_back(state, transfer);
+        pass_to_grid_and_back(state, transfer, boundaries, pass + 1 == order);
         for (unsigned int d = 0; d < dim; ++d)
           {
             double *const v = points.data(points.velocity, d);

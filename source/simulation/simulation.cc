@@ -145,7 +145,9 @@ namespace talus
                      state_.grid);
     static_stages_.check();
     transfer_.use_bbar(problem_.bodies_with_bbar());
-    state_.constants.box_shape  = transfer_.box_shape();
+    state_.constants.box_shape = transfer_.box_shape();
+    if (transfer_.scheme().is_filtered())
+      state_.constants.held_faces = problem_.boundaries.fixed_faces();
     state_.constants.added_mass = problem_.water.added_mass_of_bodies();
     state_.constants.gravity    = problem_.loading.gravity();
     scheme_.splitter().prepare(state_.constants.box_shape);

@@ -136,6 +136,10 @@ namespace talus
     unsigned char
     seabed_faces() const;
 
+    /// Faces that are `fixed`, bit f for face f of the mesh.
+    unsigned char
+    fixed_faces() const;
+
     bool
     has_seabed() const
     {
@@ -192,6 +196,11 @@ namespace talus
     /// add energy and impulse to @p work.
     void
     impose_walls(State<dim> &state, unsigned int node, BoundaryWork<dim> &work);
+
+    /// Stop the nodes on the held faces (RunConstants) in a pass of the filter
+    /// of velocities. @p is_recorded: add the impulses to the accounts.
+    void
+    hold_nodes(State<dim> &state, bool is_recorded);
 
     /// Record the impulse @p impulse, N s, of walls on the soil at a node, in
     /// components held by the walls.

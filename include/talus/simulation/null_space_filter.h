@@ -2,6 +2,7 @@
 #ifndef talus_simulation_null_space_filter_h
 #define talus_simulation_null_space_filter_h
 
+#include <talus/boundaries/boundaries.h>
 #include <talus/state/state.h>
 #include <talus/transfer/transfer.h>
 
@@ -26,10 +27,16 @@ namespace talus
   /// Laws that compute the stress from the deformation gradient restore their
   /// stress in the next step.
   ///
+  /// With @p boundaries the nodes on held faces stay at rest in each pass: the
+  /// filter then keeps the shear beside the face, and removes velocities of
+  /// points that the face holds.
+  ///
   /// The order of XPIC is a parameter of the scheme. Collective.
   template <int dim>
   void
-  filter_null_space(State<dim> &state, const Transfer<dim> &transfer);
+  filter_null_space(State<dim>          &state,
+                    const Transfer<dim> &transfer,
+                    Boundaries<dim>     *boundaries = nullptr);
 } // namespace talus
 
 #endif

@@ -18,6 +18,8 @@ namespace talus
   struct RunConstants
   {
     BoxShape box_shape; ///< how the boxes of the points deform
+    /// Faces whose nodes stay without increment: bit f for face f of the mesh.
+    unsigned char held_faces = 0;
     /// Maximum mass of a node without momentum, kg.
     double mass_cutoff = 0;
     /// Mass of water that moves with the soil divided by the mass of the soil

@@ -29,8 +29,13 @@ namespace talus
     bool
     filters(const unsigned long step) const
     {
-      return name_ == "filtered FLIP" && step > 0 &&
-             step % filter_interval_ == 0;
+      return is_filtered() && step > 0 && step % filter_interval_ == 0;
+    }
+
+    bool
+    is_filtered() const
+    {
+      return name_ == "filtered FLIP";
     }
 
     /// Number of passes to the grid and back in a filtering [-].

@@ -31,10 +31,24 @@ namespace
 
   TEST(Boundaries, FixedHoldsAll)
   {
-    const OneNode<2> n("set Bottom = fixed", "", on_bottom, 2., before, trial);
+    OneNode<2> n("set Bottom = fixed", "", on_bottom, 2., before, trial);
     n.expect_velocity(Point<2>(0., 0.));
     n.expect_impulses(Point<2>(), -2. * trial);
-    EXPECT_NEAR(n.contact_work(), 2. * trial * (0.5 * before), 1e-14);
+    const double work = 2. * trial * (0.5 * before);
+    EXPECT_NEAR(n.contact_work(), work, 1e-14);
+
+    // A held face bears the force; a pass of the filter takes the momentum.
+    n.constants.held_faces = n.boundaries.fixed_faces();
+    n.set_node(2., 1e3, before, 2. * (trial - before) / dt);
+    n.step();
+    n.expect_velocity(Point<2>(0., 0.));
+    EXPECT_EQ(n.nodes.increment(n.node).norm(), 0.);
+    n.expect_impulses(Point<2>(), -2. * trial - 2. * (trial - before));
+    n.set_node(2., 1e3, before, {});
+    n.nodes.update_momentum(0., 0.);
+    n.boundaries.hold_nodes(n, true);
+    n.expect_impulses(Point<2>(), -4. * trial);
+    EXPECT_NEAR(n.contact_work(), work, 1e-14);
   }
 
 

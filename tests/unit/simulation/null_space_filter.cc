@@ -90,6 +90,33 @@ namespace
 
 
 
+  /// The momentum that the points lose beside a held face is in the account of
+  /// the wall.
+  template <int dim>
+  void
+  expect_momentum_of_wall(Core<dim> &core)
+  {
+    core.boundaries.parse(Constants());
+    core.boundaries.prepare(core.grid);
+    core.boundaries.open_accounts(core.accounts);
+    core.constants.held_faces = core.boundaries.fixed_faces();
+    core.scatter();
+    const auto momentum = [&]() {
+      Tensor<1, dim> sum;
+      for (unsigned int p = 0; p < core.points.size(); ++p)
+        sum += core.points.data(core.points.mass)[p] *
+               core.get(core.points.velocity, p);
+      return sum;
+    };
+    const Tensor<1, dim> before = momentum();
+    filter_null_space(core, core.transfer, &core.boundaries);
+    const Tensor<1, dim> taken = core.accounts.impulse("wall impulse");
+    EXPECT_GT(taken.norm(), 1e-3 * before.norm());
+    EXPECT_LT((momentum() - before - taken).norm(), 1e-12 * before.norm());
+  }
+
+
+
   /// Points with the cell mean have the mean stress of their cell; neither the
   /// deviators nor the forces of the nodes have changed.
   template <int dim>
@@ -144,6 +171,15 @@ TEST(NullSpaceFilter, IsXpic)
 {
   on_both_meshes<2>("", expect_xpic<2>);
   on_both_meshes<3>("", expect_xpic<3>);
+}
+
+
+
+TEST(NullSpaceFilter, HeldFaceTakesMomentum)
+{
+  const std::string fixed = "subsection Boundaries\nset Bottom = fixed\nend\n";
+  on_both_meshes<2>(fixed, expect_momentum_of_wall<2>);
+  on_both_meshes<3>(fixed, expect_momentum_of_wall<3>);
 }
 
 
