@@ -44,6 +44,7 @@ PAGES = [
         ("Shear bands", ["ShearBand", "ShearBandFine", "ShearBandRuns",
                          "SlabFailure", "SofteningSeabed"]),
         ("Retrogression in sensitive clay", ["Retrogression"]),
+        ("Excess pore pressure", ["PorePressure"]),
         ("Initial stress, trigger and ground motion",
          ["Geostatic", "Trigger", "GroundMotion", "LandslideFromEquilibrium",
           "LandslideFromEquilibriumFine"]),

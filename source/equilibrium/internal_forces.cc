@@ -74,9 +74,25 @@ namespace talus
                         end,
                         linearizations_.data() + begin);
       });
+    subtract_pore_pressure(points);
     find_volumes(problem);
     for (unsigned int c = 0; c < weights.cells().size(); ++c)
       add_forces_of_cell(c, weights, forces);
+  }
+
+
+
+  /// Laws return the effective stress; forces follow from the total stress.
+  template <int dim>
+  void
+  InternalForces<dim>::subtract_pore_pressure(const Points<dim> &points)
+  {
+    if (!points.have_pore_pressure())
+      return;
+    const double *const u = points.data(points.pore_pressure());
+    for (std::size_t p = 0; p < linearizations_.size(); ++p)
+      for (unsigned int d = 0; d < dim; ++d)
+        linearizations_[p].stress[(dim + 1) * d] -= u[p];
   }
 
 

@@ -73,6 +73,28 @@ namespace talus
 
 
 
+    /// Work per time of the excess pore pressure on the points of a batch, W,
+    /// before the step changes their volumes: the work of the nodal forces.
+    template <int dim>
+    double
+    power_of_pore_pressure(const Points<dim>        &points,
+                           const StepWorkspace<dim> &workspace,
+                           const Batch              &batch)
+    {
+      const double *const u   = points.data(points.pore_pressure());
+      double              sum = 0;
+      for (unsigned int p = batch.begin; p < batch.end; ++p)
+        {
+          double rate = 0;
+          for (unsigned int d = 0; d < dim; ++d)
+            rate += workspace.velocity_gradient(d, d)[p - batch.begin];
+          sum += u[p] * rate * volume_of_points<dim, double>(points, p);
+        }
+      return sum;
+    }
+
+
+
     /// Largest norm of the velocity gradient of the points of a batch, 1/s.
     template <int dim>
     double
@@ -286,6 +308,7 @@ namespace talus
                             problem_.materials.strength_factor(),
                             state_.time,
                             state_.time + dt);
+    problem_.pore_pressure.update(state_.points, state_.time, state_.time + dt);
     groups_.rewind();
     state_.max_velocity_gradient = 0;
     const auto rule              = transfer_.box_shape().rule;
@@ -304,6 +327,9 @@ namespace talus
       state_.max_velocity_gradient =
         std::max(state_.max_velocity_gradient,
                  largest_gradient(state_.workspace, batch));
+      if (state_.points.have_pore_pressure())
+        state_.accounts.energy("pore pressure work") +=
+          dt * power_of_pore_pressure(state_.points, state_.workspace, batch);
       timer_.lap(PhaseTimer::grid_to_points);
       problem_.materials.set_cell_sizes(state_.points,
                                         batch,
