@@ -168,6 +168,18 @@ class Ranks(Runs):
             self.assertEqual(table["points"][-1], 320)
             self.assertGreater(self.changes(f"ranks-{n_ranks}")[1], 1)
 
+    def test_pore_pressure(self):
+        """On a bed through the mesh, where several ranks share a place."""
+        settings = TERSE + BALANCE + [
+            "Excess pore pressure/Initial=0.2*overburden",
+            "Excess pore pressure/Final=0.8*overburden",
+            "Excess pore pressure/Duration=1", "End time=1.5"]
+        file = "verification/block-on-plane.prm"
+        alone = self.run_on(1, settings, file)
+        self.assertGreater(alone["pore pressure work [J]"][-1], 0.1)
+        for n_ranks in (2, 4):
+            self.assert_same(self.run_on(n_ranks, settings, file), alone, 1e-8)
+
     def test_obstacles(self):
         """A seabed through a mesh that changes; a pipe that moves."""
         slide = "landslide-inclined.prm"
