@@ -43,7 +43,8 @@ namespace talus
 
 
   /// First evaluate stress and tangent by the laws, for ranges of points of the
-  /// same material. Then add the forces cell by cell, as the mean of B-bar
+  /// same material; laws return the effective stress, forces follow from the
+  /// total stress. Then add the forces cell by cell, as the mean of B-bar
   /// couples all points of a cell, also of different bodies. The tangent is
   /// kept for add_tangent(): laws return stress and tangent together (by
   /// numbers that carry derivatives), so there is no second pass and no
@@ -73,26 +74,16 @@ namespace talus
                         begin,
                         end,
                         linearizations_.data() + begin);
+        if (points.have_pore_pressure())
+          model.pore_water().linearize(points,
+                                       problem.state.workspace,
+                                       begin,
+                                       end,
+                                       linearizations_.data() + begin);
       });
-    subtract_pore_pressure(points);
     find_volumes(problem);
     for (unsigned int c = 0; c < weights.cells().size(); ++c)
       add_forces_of_cell(c, weights, forces);
-  }
-
-
-
-  /// Laws return the effective stress; forces follow from the total stress.
-  template <int dim>
-  void
-  InternalForces<dim>::subtract_pore_pressure(const Points<dim> &points)
-  {
-    if (!points.have_pore_pressure())
-      return;
-    const double *const u = points.data(points.pore_pressure());
-    for (std::size_t p = 0; p < linearizations_.size(); ++p)
-      for (unsigned int d = 0; d < dim; ++d)
-        linearizations_[p].stress[(dim + 1) * d] -= u[p];
   }
 
 

@@ -380,6 +380,10 @@ namespace talus
           const unsigned int        begin,
           const unsigned int        end) {
         model.commit_load_step(points, problem.state.workspace, begin, end);
+        model.pore_water().commit_load_step(points,
+                                            problem.state.workspace,
+                                            begin,
+                                            end);
       });
   }
 

@@ -221,15 +221,12 @@ namespace talus
 
 
 
-  /// Skipped while u is constant: a loop over all points costs time.
   template <int dim>
   void
   ExcessPorePressure<dim>::update(Points<dim> &points,
                                   const double before,
                                   const double now) const
   {
-    if (final_.empty() || progress(now) == progress(before))
-      return;
     const double        grown  = progress(now) - progress(before);
     const double *const change = points.data(change_);
     double *const       u      = points.data(points.pore_pressure());

@@ -128,6 +128,104 @@ TEST(PorePressure, ColumnInEquilibrium)
 
 
 
+namespace
+{
+  // K_f/K for nu = 0.3 and nu_u = 0.49, and Skempton's B = K_f/(K_f + K).
+  constexpr double water_over_soil = 21.9230769231, skempton = 0.9563758389;
+
+  Overrides
+  undrained(const Overrides &more)
+  {
+    return Overrides{"Materials/soil/Poisson's ratio=0.3",
+                     "Materials/soil/Pore water/Drainage=undrained",
+                     "Bodies/column/K0=",
+                     "Excess pore pressure/Final=",
+                     "Excess pore pressure/Duration=0"} +
+           more;
+  }
+} // namespace
+
+
+
+// Undrained soil carries its own weight, as it came, by the water.
+TEST(PorePressure, UndrainedColumnInEquilibrium)
+{
+  const StaticCase<2> at_rest(pore_column,
+                              "undrained-column",
+                              undrained({"Stages=equilibrium"}));
+  const auto         &points = at_rest.points();
+  double              error  = 0;
+  for (unsigned int p = 0; p < points.size(); ++p)
+    {
+      const double u    = points.data(points.pore_pressure())[p];
+      double       mean = 0;
+      for (unsigned int d = 0; d < 3; ++d)
+        mean -= points.data(points.stress, d)[p] / 3.;
+      error = std::max(error, std::abs(u / (u + mean) - skempton));
+      // Between smooth walls the strain is in one direction: du = K_f/M dp'_yy.
+      const double M_over_K = 3. * 0.7 / 1.3;
+      error                 = std::max(error,
+                       std::abs(-u / points.data(points.stress, 1)[p] *
+                                  M_over_K / water_over_soil -
+                                1.));
+    }
+  Verification("Undrained column in equilibrium",
+               "tests/cases/" + pore_column + ", undrained",
+               "B = K_f/(K_f + K)")
+    .at_most("u/p - B, and u/s_yy over its value - 1, largest", error, 1e-9);
+}
+
+
+
+// Undrained elastic soil is elastic soil of the same shear modulus and nu_u: both
+// swing alike under a weight that comes at once, and the energy closes alike.
+TEST(PorePressure, UndrainedMovesAsOneMaterial)
+{
+  const Overrides at_once = {"Damping/Local damping=0",
+                             "End time=1",
+                             "Output/Statistics interval=0.02"};
+  const Table     with_water =
+    run<2>(pore_column, "undrained-swings", undrained(at_once));
+  const Table total =
+    run<2>(pore_column,
+           "undrained-as-one",
+           at_once + Overrides{"Materials/soil/Poisson's ratio=0.49",
+                               text("Materials/soil/Young's modulus=",
+                                    std::setprecision(15),
+                                    1e7 * 1.49 / 1.3),
+                               "Bodies/column/K0=",
+                               "Excess pore pressure/Final=",
+                               "Excess pore pressure/Duration=0"});
+  const auto &y = total["centre y [m]"], &y_water = with_water["centre y [m]"];
+  ASSERT_EQ(y.size(), y_water.size());
+  double error = 0, amplitude = 0;
+  for (unsigned int i = 0; i < y.size(); ++i)
+    {
+      error     = std::max(error, std::abs(y[i] - y_water[i]));
+      amplitude = std::max(amplitude, std::abs(y[i] - y[0]));
+    }
+  Verification gates("Undrained column that swings",
+                     "tests/cases/" + pore_column + ", undrained",
+                     "soil with the shear modulus of the skeleton and nu_u");
+  gates.at_most("height of the centre / amplitude, difference",
+                error / amplitude,
+                1e-3);
+  // The remainder is that of one material: a wave that begins at once.
+  const auto &rest       = total["energy remainder [J]"],
+             &rest_water = with_water["energy remainder [J]"];
+  double remainder       = 0;
+  for (unsigned int i = 0; i < rest.size(); ++i)
+    remainder = std::max(remainder, std::abs(rest_water[i] - rest[i]));
+  const auto  &energy = with_water["water energy [J]"];
+  const double stored = *std::max_element(energy.begin(), energy.end());
+  EXPECT_GT(stored, 0.);
+  gates.at_most("energy remainder / energy of the water, difference",
+                remainder / stored,
+                1e-3);
+}
+
+
+
 // The pressure rises slowly: the column swells as in equilibrium, and the work
 // of the pressure, integral of u d(eps_v), is u^2/(2 M) per volume.
 TEST(PorePressure, ColumnSwells)

@@ -68,8 +68,6 @@ namespace talus
     };
 
     void
-    subtract_pore_pressure(const Points<dim> &points);
-    void
     find_volumes(const StaticProblem<dim> &problem);
     void
     add_forces_of_cell(unsigned int                   c,

@@ -3,6 +3,7 @@
 #define talus_materials_material_model_h
 
 #include <talus/base/remark.h>
+#include <talus/materials/pore_water.h>
 #include <talus/materials/undrained_strength.h>
 #include <talus/points/points.h>
 #include <talus/points/step_workspace.h>
@@ -210,6 +211,13 @@ namespace talus
     /// Return whether cells would lock, so that B-bar is on by default.
     virtual bool
     is_nearly_incompressible() const = 0;
+
+    /// Return the pore water; without stiffness if the soil is drained.
+    virtual UndrainedWater<dim>
+    pore_water() const
+    {
+      return {0., 0.};
+    }
 
     /// Return a remark on the material in cells of @p cell_size, m; may be
     /// empty.

@@ -50,8 +50,8 @@ namespace talus
     std::vector<Remark>
     notes(double cell_size) const;
 
-    /// Declare the internal variables of all laws and, if
-    /// @p with_strength_factor, the column of factors of the strength. The
+    /// Declare the internal variables of all laws, the pore pressure of
+    /// undrained soil, and, if @p with_strength_factor, the column of factors of the strength. The
     /// factor costs memory and time in each step, so request it only if it
     /// changes.
     void
@@ -73,6 +73,14 @@ namespace talus
     {
       return undrained_strength_;
     }
+
+    /// Energy of the water compressed in undrained soil, sum of V u^2/(2 K_f), J.
+    double
+    water_energy(const Points<dim> &points) const;
+
+    /// Whether the pore water of a material is undrained.
+    bool
+    are_undrained() const;
 
     /// Range of undrained_strength() in the soil of @p body, Pa; {0, 0} if the
     /// material does not use the column. Collective.

@@ -63,7 +63,14 @@ namespace talus
         const Mudline<dim>        &mudline,
         MPI_Comm                   communicator) const;
 
-    /// Add what u changes from time @p before to time @p now, s.
+    /// Whether u changes from time @p before to time @p now, s.
+    bool
+    changes(const double before, const double now) const
+    {
+      return !final_.empty() && progress(before) != progress(now);
+    }
+
+    /// Add what u changes from time @p before to time @p now, s; see changes().
     void
     update(Points<dim> &points, double before, double now) const;
 

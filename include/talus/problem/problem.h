@@ -52,9 +52,14 @@ namespace talus
     {
       interactions.open_accounts(accounts);
       accounts.open_energy("gravity work", Accounts<dim>::EnergyKind::supplied);
-      if (pore_pressure.exists())
+      if (pore_pressure.exists() || materials.are_undrained())
         accounts.open_energy("pore pressure work",
                              Accounts<dim>::EnergyKind::supplied);
+      if (materials.are_undrained())
+        accounts.open_stored_energy("water energy",
+                                    [this](const Points<dim> &points) {
+                                      return materials.water_energy(points);
+                                    });
     }
 
     /// Fill the bodies with points and set the initial state. Points are
