@@ -82,6 +82,42 @@ TEST(InfiniteSlope, FactorOfSafetyBelowOne)
 
 
 
+// Soil without cohesion whose flow is not normal to the yield surface shears
+// along lines of no extension, so that the slope fails at
+// cos(psi) sin(phi_F) = tan(20 degrees) (1 - sin(phi_F) sin(psi)) with
+// tan(phi_F) = tan(phi)/F, unless the ground was pressed sideways at the start:
+// then, and with psi = phi, at F = tan(phi)/tan(20 degrees).
+TEST(InfiniteSlope, FrictionAndDilatancy)
+{
+  Verification gates("Infinite slope of 20 degrees with friction, 30 degrees",
+                     "prm/verification/infinite-slope-friction.prm",
+                     "limit equilibrium 1.58626; lines of no extension");
+  const auto   factor = [](const std::string &name, const Overrides &settings) {
+    return StaticCase<2>("verification/infinite-slope-friction.prm",
+                         "infinite-slope-friction-" + name,
+                         settings)
+      .factor_of_safety();
+  };
+  gates.near("factor of safety, psi = 0, K0 = 0.5",
+             factor("0", {}),
+             1.4774563920,
+             0.001);
+  gates.near("factor of safety, psi = 10 degrees, K0 = 0.5",
+             factor("10", {"Materials/sand/Dilatancy angle=10"}),
+             1.5589376051,
+             0.001);
+  gates.near("factor of safety, psi = 30 degrees, K0 = 0.5",
+             factor("30", {"Materials/sand/Dilatancy angle=30"}),
+             1.5862568277,
+             0.001);
+  gates.near("factor of safety, psi = 0, K0 = 2",
+             factor("K0", {"Bodies/layer/K0=2"}),
+             1.5862568277,
+             0.001);
+}
+
+
+
 // Earthquakes move the whole mass, under water the weight is of less.
 TEST(InfiniteSlope, HorizontalCoefficient)
 {

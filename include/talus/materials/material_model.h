@@ -211,6 +211,13 @@ namespace talus
     virtual bool
     is_nearly_incompressible() const = 0;
 
+    /// Return whether the derivatives of linearize() are symmetric.
+    virtual bool
+    has_symmetric_tangent() const
+    {
+      return true;
+    }
+
     /// Return a remark on the material in cells of @p cell_size, m; may be
     /// empty.
     virtual Remark

@@ -87,6 +87,15 @@ namespace talus
     largest_strength_factor(const Points<dim> &points,
                             MPI_Comm           communicator) const;
 
+    /// Return whether the derivatives of all laws are symmetric.
+    bool
+    has_symmetric_tangents() const
+    {
+      return std::all_of(models_.begin(), models_.end(), [](const auto &model) {
+        return model->has_symmetric_tangent();
+      });
+    }
+
     /// Tell all laws the largest edge of cells with soil, m.
     void
     use_cell_size(const double largest)
