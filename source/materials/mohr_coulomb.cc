@@ -100,6 +100,26 @@ namespace talus
 
 
   template <int dim>
+  Remark
+  MohrCoulomb<dim>::note_on_safety() const
+  {
+    if (dilatancy_angle_ == friction_angle_ || is_associated_)
+      return "";
+    return {text("Plastic flow of this material is not associated (dilatancy "
+                 "angle ",
+                 dilatancy_angle_,
+                 ", friction angle ",
+                 friction_angle_,
+                 " degrees), so the factor of safety depends on the initial "
+                 "stress, such as 'K0'. With 'Strength reduction/"
+                 "Non-associated flow = Davis' it does not."),
+            Severity::look,
+            "section " + this->section()};
+  }
+
+
+
+  template <int dim>
   MohrCoulombFlow
   MohrCoulomb<dim>::flow_rule(const double /*dt*/) const
   {
@@ -110,7 +130,8 @@ namespace talus
             std::tan(radians(friction_angle_)),
             radians(dilatancy_angle_),
             dilation_strain_.empty() ? 0. : 1. / dilation_strain_.front(),
-            tension_};
+            tension_,
+            is_associated_};
   }
 
 

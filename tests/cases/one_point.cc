@@ -100,9 +100,7 @@ TEST(OnePoint, PlaneStrainCompression)
 TEST(OnePoint, FrictionInPlaneStrainCompression)
 {
   Case<2> sample("verification/plane-strain-compression.prm",
-                 {"Materials/clay/Law=Mohr-Coulomb",
-                  "Materials/clay/Cohesion=1000",
-                  "Materials/clay/Friction angle=30"});
+                 {"Bodies/sample/Material=sand"});
   while (sample->state().time < 200. - 1e-12)
     sample->advance();
   Verification gates("Plane-strain compression, Mohr-Coulomb",

@@ -218,6 +218,21 @@ namespace talus
       return true;
     }
 
+    /// Let plastic flow be normal to the yield surface, with the strength
+    /// reduced by Davis' factor; see MohrCoulombFlow. Laws whose flow is normal
+    /// anyway do nothing.
+    virtual void
+    use_associated_flow(bool /*is_associated*/)
+    {}
+
+    /// Return a remark on the factor of safety, if plastic flow is not normal
+    /// to the yield surface; may be empty.
+    virtual Remark
+    note_on_safety() const
+    {
+      return "";
+    }
+
     /// Return a remark on the material in cells of @p cell_size, m; may be
     /// empty.
     virtual Remark

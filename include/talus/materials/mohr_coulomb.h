@@ -40,6 +40,15 @@ namespace talus
       return false;
     }
 
+    void
+    use_associated_flow(const bool is_associated) override
+    {
+      is_associated_ = is_associated;
+    }
+
+    Remark
+    note_on_safety() const override;
+
   private:
     MohrCoulombFlow
     flow_rule(double dt) const override;
@@ -47,7 +56,8 @@ namespace talus
     double cohesion_ = 0., friction_angle_ = 30., dilatancy_angle_ = 0.;
     // A single number, or empty if the parameter is not given.
     std::vector<double> dilation_strain_;
-    double              tension_ = 0.;
+    double              tension_       = 0.;
+    bool                is_associated_ = false;
   };
 } // namespace talus
 

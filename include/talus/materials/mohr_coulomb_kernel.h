@@ -83,25 +83,28 @@ namespace talus
   /// returns to the largest tension and the deviator to what is left there.
   struct MohrCoulombFlow
   {
-    double mu, bulk;  ///< elastic moduli, Pa
+    double mu, bulk;  ///< elastic moduli of the law, Pa
     double cohesion;  ///< c', Pa
     double friction;  ///< tan(phi') [-]
     double dilatancy; ///< psi, radians
     double decay;     ///< of psi per plastic shear strain [-]
     double tension;   ///< cut-off of the mean stress, Pa
+    /// Whether flow is associated, with cohesion and friction reduced by Davis'
+    /// factor cos(psi) cos(phi)/(1 - sin(psi) sin(phi)) @cite davis1968.
+    bool is_associated = false;
 
-    /// Dilation per plastic shear strain [-] after the plastic shear strain
-    /// @p strain.
+    /// Sine of the dilatancy angle after the plastic shear strain @p strain; at
+    /// most @p sine of the friction angle, as more would create energy.
     template <typename Strength>
     TALUS_ALWAYS_INLINE Strength
-    dilation_rate(const Strength &strain) const
+    dilatancy_sine(const Strength &strain, const Strength &sine) const
     {
       if (dilatancy == 0.)
         return Strength(0.);
-      const Strength sine = decay == 0.
+      const Strength full = decay == 0.
                               ? Strength(std::sin(dilatancy))
                               : Strength(sin(dilatancy * exp(-decay * strain)));
-      return sine / sqrt(1. + sine * sine * (1. / 3.));
+      return min(full, sine);
     }
 
     template <int dim, typename Number, typename Strength>
@@ -110,34 +113,49 @@ namespace talus
                const Strength                &strain,
                const PointStrength<Strength> &strength) const
     {
-      const double   tiny    = std::numeric_limits<double>::min();
-      const Strength tangent = friction * strength.factor;
-      const Strength root    = sqrt(1. + tangent * tangent); // 1/cos(phi)
-      const Strength sine    = tangent / root;
-      const Strength apex_of_cone =
-        cohesion * strength.factor / (tangent + 1e-10);
-      const Strength apex = min(Strength(tension), apex_of_cone);
+      const double tiny    = std::numeric_limits<double>::min();
+      Strength     tangent = friction * strength.factor;
+      Strength     c       = cohesion * strength.factor;
+      Strength     root    = sqrt(1. + tangent * tangent); // 1/cos(phi)
+      Strength     sine    = tangent / root;
+      Strength     flow    = dilatancy_sine(strain, sine);
+      if (is_associated)
+        {
+          const Strength davis =
+            sqrt(1. - flow * flow) / (root * (1. - flow * sine));
+          tangent = davis * tangent;
+          c       = davis * c;
+          root    = sqrt(1. + tangent * tangent);
+          flow = sine = tangent / root;
+        }
+      // Dilation per plastic shear strain [-].
+      const Strength beta = flow / sqrt(1. + flow * flow * (1. / 3.));
+      const Strength apex =
+        min(Strength(tension), Strength(c / (tangent + 1e-10)));
       // Strength at mean stress 0, and at the apex.
-      const Strength at_zero = cohesion * strength.factor / root;
+      const Strength at_zero = c / root;
       const Strength at_apex =
         max(Strength(at_zero - apex * sine), Strength(0.));
 
-      const auto    &s     = trial.deviator_after;
-      const Number   p     = trial.mean_after;
-      const Number   t     = sqrt(0.5 * contract(s, s) + tiny);
-      const Number   shear = mohr_coulomb_shear<dim, Number>(s, t, sine);
-      const Strength beta  = dilation_rate(strain);
+      const auto  &s      = trial.deviator_after;
+      const Number p      = trial.mean_after;
+      const Number t      = sqrt(0.5 * contract(s, s) + tiny);
+      const Number shear  = mohr_coulomb_shear<dim, Number>(s, t, sine);
       const Number excess = max(Number(shear + p * sine - at_zero), Number(0.));
-      const Number increment = excess / (mu * shear / t + bulk * beta * sine);
-      const Number removed   = mu * increment / t;
-      const Number dilation  = beta * increment;
+      // Elastic moduli of the point, Pa.
+      const Strength g = mu * strength.stiffness, k = bulk * strength.stiffness;
+      const Number   increment = excess / (g * shear / t + k * beta * sine);
+      const Number   removed   = g * increment / t;
+      const Number   dilation  = beta * increment;
 
-      const auto   is_beyond = max(Number(p - bulk * dilation - apex),
-                                 Number(removed - 1.)) > Number(0.);
+      const auto is_beyond =
+        max(Number(p - k * dilation - apex), Number(removed - 1.)) > Number(0.);
       const Number kept = min(Number(1.), Number(at_apex / (shear + tiny)));
       return {select(is_beyond, Number(1. - kept), removed),
               increment,
-              select(is_beyond, Number((p - apex) * (1. / bulk)), dilation)};
+              select(is_beyond,
+                     Number((p - apex) * (1. / bulk * strength.compliance)),
+                     dilation)};
     }
   };
 } // namespace talus

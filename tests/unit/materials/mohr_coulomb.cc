@@ -7,7 +7,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <random>
+#include <utility>
 
 // The return of MohrCoulombFlow against the criterion by principal stresses.
 
@@ -204,14 +207,105 @@ namespace mohr_coulomb_test
 
 
 
-  // Dilation fades by 1/e over the dilation strain.
-  TEST(MohrCoulomb, DilationFades)
+  // Dilation fades by 1/e over the dilation strain, and is never more than
+  // associated flow with the reduced friction.
+  TEST(MohrCoulomb, Dilation)
   {
     MohrCoulombFlow flow_rule = sand;
     flow_rule.decay           = 1. / 0.05;
-    const double sine         = std::sin(psi * std::exp(-1.));
-    EXPECT_NEAR(flow_rule.dilation_rate(0.05),
-                sine / std::sqrt(1. + sine * sine / 3.),
+    EXPECT_NEAR(flow_rule.dilatancy_sine(0.05, 0.4),
+                std::sin(psi * std::exp(-1.)),
                 1e-14);
+    EXPECT_EQ(sand.dilatancy_sine(0.05, 0.1), 0.1);
+  }
+
+
+
+  /// Point in plane strain, of friction angle 30 degrees, at a normal stress of
+  /// 100 kPa.
+  struct Sample
+  {
+    MohrCoulombFlow   flow_rule;
+    Stress<2, double> sigma; ///< Pa
+    /// Volumetric over largest shear strain of the last step [-].
+    double dilation = 0.;
+
+    Sample(const double psi_in_degrees, const double c, const double K0)
+      : flow_rule{mu,
+                  bulk,
+                  c,
+                  std::tan(M_PI / 6.),
+                  psi_in_degrees * M_PI / 180.,
+                  0.,
+                  1e9}
+      , sigma{{-100e3 * K0, -100e3, -100e3 * K0, 0.}}
+    {}
+
+    /// Strain by @p strain, xx, yy, zz and xy. Its component @p free takes the
+    /// value that keeps the normal stress there.
+    void
+    step(Stress<2, Dual<1>> strain, const unsigned int free)
+    {
+      const double kept = sigma[free], mean = mean_normal(sigma);
+      strain[free].derivative[0] = 1.;
+      StressStep<2, Dual<1>> after;
+      Dual<1>                error;
+      do
+        {
+          const Dual<1> m  = mean_normal(strain);
+          after.mean_after = mean + 3. * bulk * m;
+          for (unsigned int i = 0; i < 4; ++i)
+            after.deviator_after[i] =
+              sigma[i] + 2. * mu * strain[i] -
+              (i < 3 ? mean + 2. * mu * m : Dual<1>(0.));
+          after = returned(after, Dual<1>(bulk), flow_rule(after, 0., whole));
+          error = after.deviator_after[free] + after.mean_after - kept;
+          strain[free].value -= error.value / error.derivative[0];
+      } while (std::abs(error.value) > 1e-7);
+      for (unsigned int i = 0; i < 4; ++i)
+        sigma[i] =
+          after.deviator_after[i].value + (i < 3 ? after.mean_after.value : 0.);
+      dilation =
+        3. * mean_normal(strain).value /
+        std::hypot(strain[0].value - strain[1].value, 2. * strain[3].value);
+    }
+  };
+
+
+
+  // s_1 = K_p s_3 + 2 c sqrt(K_p).
+  TEST(MohrCoulomb, BiaxialCompression)
+  {
+    for (const auto &[psi_in_degrees, c] :
+         {std::pair{0., 0.}, {0., 5e3}, {10., 0.}, {30., 5e3}})
+      {
+        Sample sample(psi_in_degrees, c, 1.);
+        for (unsigned int i = 0; i < 600; ++i)
+          sample.step({{0., -1e-4, 0., 0.}}, 0);
+        EXPECT_NEAR(-sample.sigma[1], 300e3 + 2. * c * std::sqrt(3.), 0.3);
+        EXPECT_NEAR(sample.dilation,
+                    std::sin(psi_in_degrees * M_PI / 180.),
+                    5e-3);
+      }
+  }
+
+
+
+  // Soil that shears without extension along the shear plane has
+  // tau/s = sin(phi) cos(psi)/(1 - sin(phi) sin(psi)) @cite davis1968.
+  TEST(MohrCoulomb, SimpleShear)
+  {
+    for (const auto &[psi_in_degrees, ratio, lateral] :
+         {std::array{0., 0.5, 1.},
+          {10., 0.5392212721, NAN},
+          {30., 0.5773502692, 5. / 3.}})
+      {
+        Sample sample(psi_in_degrees, 0., 0.5);
+        for (unsigned int i = 0; i < 1200; ++i)
+          sample.step({{0., 0., 0., 2.5e-5}}, 1);
+        EXPECT_NEAR(sample.sigma[3] / 100e3, ratio, 1e-3 * ratio);
+        if (!std::isnan(lateral))
+          EXPECT_NEAR(sample.sigma[0] / sample.sigma[1], lateral, 1e-3);
+      }
   }
 } // namespace mohr_coulomb_test
