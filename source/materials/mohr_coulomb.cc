@@ -70,7 +70,7 @@ namespace talus
                              this->section(),
                              ": `Dilatancy angle` is ",
                              dilatancy_angle_,
-                             " degrees, beyond the friction angle, ",
+                             " degrees, more than the friction angle, ",
                              friction_angle_,
                              " degrees: plastic flow would create energy. Give "
                              "an angle between -phi' and phi'.")));
