@@ -96,6 +96,24 @@ TEST(OnePoint, PlaneStrainCompression)
 
 
 
+// No stress on the sides: s_1 = 2 c tan(45 degrees + phi/2).
+TEST(OnePoint, FrictionInPlaneStrainCompression)
+{
+  Case<2> sample("verification/plane-strain-compression.prm",
+                 {"Bodies/sample/Material=sand"});
+  while (sample->state().time < 200. - 1e-12)
+    sample->advance();
+  Verification gates("Plane-strain compression, Mohr-Coulomb",
+                     "prm/verification/plane-strain-compression.prm",
+                     "2 c sqrt(K_p)");
+  gates.near("plateau [Pa]",
+             -StressOf(sample.points(), 0).yy,
+             2000. * std::sqrt(3.),
+             1e-5);
+}
+
+
+
 namespace
 {
   /// Largest error over one turn in steps of a quarter, Pa.

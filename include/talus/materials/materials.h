@@ -95,6 +95,33 @@ namespace talus
     largest_strength_factor(const Points<dim> &points,
                             MPI_Comm           communicator) const;
 
+    /// Return whether the derivatives of all laws are symmetric.
+    bool
+    has_symmetric_tangents() const
+    {
+      return std::all_of(models_.begin(), models_.end(), [](const auto &model) {
+        return model->has_symmetric_tangent();
+      });
+    }
+
+    /// See MaterialModel::use_associated_flow().
+    void
+    use_associated_flow(const bool is_associated)
+    {
+      for (const auto &model : models_)
+        model->use_associated_flow(is_associated);
+    }
+
+    /// Remarks on the factor of safety of all materials.
+    std::vector<Remark>
+    notes_on_safety() const
+    {
+      std::vector<Remark> result;
+      for (const auto &model : models_)
+        result.push_back(model->note_on_safety());
+      return joined(result);
+    }
+
     /// Tell all laws the largest edge of cells with soil, m.
     void
     use_cell_size(const double largest)
