@@ -217,99 +217,111 @@ namespace talus
     pore_water() const
     {
       return {0., 0.};
-      /// Return whether the derivatives of linearize() are symmetric.
-      virtual bool has_symmetric_tangent() const
-      {
-        return true;
-      }
+    }
 
-      /// Let plastic flow be normal to the yield surface, with the strength
-      /// reduced by Davis' factor; see MohrCoulombFlow. Laws whose flow is normal
-      /// anyway do nothing.
-      virtual void use_associated_flow(bool /*is_associated*/)
-      {}
+    /// Return whether the derivatives of linearize() are symmetric.
+    virtual bool
+    has_symmetric_tangent() const
+    {
+      return true;
+    }
 
-      /// Return a remark on the factor of safety, if plastic flow is not normal
-      /// to the yield surface; may be empty.
-      virtual Remark note_on_safety() const
-      {
-        return "";
-      }
+    /// Let plastic flow be normal to the yield surface, with the strength
+    /// reduced by Davis' factor; see MohrCoulombFlow. Laws whose flow is normal
+    /// anyway do nothing.
+    virtual void
+    use_associated_flow(bool /*is_associated*/)
+    {}
 
-      /// Return a remark on the material in cells of @p cell_size, m; may be
-      /// empty.
-      virtual Remark note(double /*cell_size*/) const
-      {
-        return "";
-      }
+    /// Return a remark on the factor of safety, if plastic flow is not normal
+    /// to the yield surface; may be empty.
+    virtual Remark
+    note_on_safety() const
+    {
+      return "";
+    }
 
-      /// Return whether B-bar, the cell mean against locking, is on, by the
-      /// parameter `Cell mean` or is_nearly_incompressible().
-      bool uses_bbar() const;
+    /// Return a remark on the material in cells of @p cell_size, m; may be
+    /// empty.
+    virtual Remark
+    note(double /*cell_size*/) const
+    {
+      return "";
+    }
 
-      /// Density for inertia, kg/m^3.
-      double density() const
-      {
-        return density_;
-      }
+    /// Return whether B-bar, the cell mean against locking, is on, by the
+    /// parameter `Cell mean` or is_nearly_incompressible().
+    bool
+    uses_bbar() const;
 
-      /// Density for weight, kg/m^3; equal to density() by default.
-      double submerged_density() const;
+    /// Density for inertia, kg/m^3.
+    double
+    density() const
+    {
+      return density_;
+    }
 
-      const std::string &section() const
-      {
-        return section_;
-      }
+    /// Density for weight, kg/m^3; equal to density() by default.
+    double
+    submerged_density() const;
 
-    protected:
-      /// Column of the strength factor, or invalid_unsigned_int.
-      unsigned int strength_factor() const
-      {
-        return strength_factor_;
-      }
+    const std::string &
+    section() const
+    {
+      return section_;
+    }
 
-      /// Strength factor of point @p p [-]; 1 if not used.
-      double strength_factor(const Points<dim> &points, const unsigned int p)
-        const
-      {
-        return strength_factor_ == dealii::numbers::invalid_unsigned_int
-                 ? 1.
-                 : points.data(strength_factor_)[p];
-      }
+  protected:
+    /// Column of the strength factor, or invalid_unsigned_int.
+    unsigned int
+    strength_factor() const
+    {
+      return strength_factor_;
+    }
 
-      /// See use_cell_size(), m.
-      double largest_cell_size() const
-      {
-        return largest_cell_size_;
-      }
+    /// Strength factor of point @p p [-]; 1 if not used.
+    double
+    strength_factor(const Points<dim> &points, const unsigned int p) const
+    {
+      return strength_factor_ == dealii::numbers::invalid_unsigned_int
+               ? 1.
+               : points.data(strength_factor_)[p];
+    }
 
-    private:
-      std::string section_;
-      double      largest_cell_size_ = 0.;
-      double      density_           = 1000.;
-      // A single number, or empty if the parameter is not given.
-      std::vector<double> submerged_density_;
-      std::string         bbar_     = "auto";
-      unsigned int strength_factor_ = dealii::numbers::invalid_unsigned_int;
-    };
+    /// See use_cell_size(), m.
+    double
+    largest_cell_size() const
+    {
+      return largest_cell_size_;
+    }
 
-    /// Names of all laws as used in the parameter file, in the order of
-    /// registration.
-    template <int dim>
-    std::vector<std::string>
-    material_names();
+  private:
+    std::string section_;
+    double      largest_cell_size_ = 0.;
+    double      density_           = 1000.;
+    // A single number, or empty if the parameter is not given.
+    std::vector<double> submerged_density_;
+    std::string         bbar_     = "auto";
+    unsigned int strength_factor_ = dealii::numbers::invalid_unsigned_int;
+  };
 
-    /// Names of the laws with strength, formatted for the end of a sentence:
-    /// "'von Mises' or 'Bingham'".
-    template <int dim>
-    std::string
-    names_of_laws_with_strength();
+  /// Names of all laws as used in the parameter file, in the order of
+  /// registration.
+  template <int dim>
+  std::vector<std::string>
+  material_names();
 
-    /// Make the law @p name with its parameters declared in @p section. Throws
-    /// ExcUser, listing the known laws, if the name is unknown.
-    template <int dim>
-    std::unique_ptr<MaterialModel<dim>>
-    make_material(const std::string &name, const std::string &section);
-  } // namespace talus
+  /// Names of the laws with strength, formatted for the end of a sentence:
+  /// "'von Mises' or 'Bingham'".
+  template <int dim>
+  std::string
+  names_of_laws_with_strength();
+
+  /// Make the law @p name with its parameters declared in @p section. Throws
+  /// ExcUser, listing the known laws, if the name is unknown.
+  template <int dim>
+  std::unique_ptr<MaterialModel<dim>>
+  make_material(const std::string &name, const std::string &section);
+} // namespace talus
 
 #endif
