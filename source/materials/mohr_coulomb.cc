@@ -101,6 +101,27 @@ namespace talus
 
   template <int dim>
   Remark
+  MohrCoulomb<dim>::note(const double /*cell_size*/) const
+  {
+    const UndrainedWater<dim> water = this->pore_water();
+    if (water.stiffness == 0. || dilatancy_angle_ == 0. ||
+        !dilation_strain_.empty() || std::isfinite(water.largest_suction))
+      return "";
+    return {text("undrained soil with a dilatancy angle of ",
+                 dilatancy_angle_,
+                 dilatancy_angle_ > 0.
+                   ? " degrees gets stronger without end as it shears"
+                   : " degrees loses all strength as it shears",
+                 ". Give 'Dilation strain', 'Pore water/Largest suction', or a "
+                 "dilatancy angle of 0."),
+            Severity::look,
+            "section " + this->section()};
+  }
+
+
+
+  template <int dim>
+  Remark
   MohrCoulomb<dim>::note_on_safety() const
   {
     if (dilatancy_angle_ == friction_angle_ || is_associated_)

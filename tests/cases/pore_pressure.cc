@@ -347,3 +347,103 @@ TEST(PorePressure, SlabOnObstacle)
                         "Obstacles/plane/Normal=0,1",
                         text("Obstacles/plane/Friction coefficient=", mu)});
 }
+
+
+
+namespace
+{
+  const std::string sand = "verification/infinite-slope-friction.prm";
+
+  /// Slope angle and friction angle in degrees.
+  Overrides
+  sand_slope(const double slope, const double friction)
+  {
+    return {text("Gravity/Slope angle=", slope),
+            text("Materials/sand/Friction angle=", friction),
+            "Strength reduction/Tolerance=1e-4"};
+  }
+} // namespace
+
+
+
+// With psi = 0 sand shears along lines of no extension, where
+// sin(phi_F) = t/(s_n - u), tan(phi_F) = tan(phi)/F.
+TEST(PorePressure, FactorOfSafetyOfSand)
+{
+  Verification gates("Infinite slope of sand with excess pore pressure",
+                     "prm/" + sand,
+                     "lines of no extension, psi = 0, K0 = 0.5");
+  struct Row
+  {
+    double slope, friction, r_u, exact;
+  };
+  for (const Row &row : {Row{10., 30., 0.3, 2.2181136403},
+                         Row{5., 28., 0.6, 2.3721258716},
+                         Row{3., 25., 0.8, 1.7173542616}})
+    gates.near(text("factor of safety, r_u = ", row.r_u),
+               StaticCase<2>(sand,
+                             text("pore-sand-", row.slope),
+                             sand_slope(row.slope, row.friction) +
+                               Overrides{text("Excess pore pressure/Initial=",
+                                              row.r_u,
+                                              "*overburden")})
+                 .factor_of_safety(),
+               row.exact,
+               0.002);
+}
+
+
+
+// Undrained, the mean effective stress stays: m s_n sin(phi_F) = t with
+// m = (1 + 2 K0)/3.
+TEST(PorePressure, FactorOfSafetyOfUndrainedSand)
+{
+  Verification gates("Infinite slope of undrained sand",
+                     "prm/" + sand,
+                     "constant mean effective stress, psi = 0, K0 = 0.5");
+  for (const auto &[slope, friction, exact] :
+       {std::array<double, 3>{10., 30., 2.1051414126},
+        std::array<double, 3>{5., 28., 4.0166039758}})
+    gates.near(text("factor of safety, slope of ", slope, " degrees"),
+               StaticCase<2>(sand,
+                             text("undrained-sand-", slope),
+                             sand_slope(slope, friction) +
+                               Overrides{"Materials/sand/Poisson's ratio=0.3",
+                                         "Materials/sand/Pore "
+                                         "water/Drainage=undrained"})
+                 .factor_of_safety(),
+               exact,
+               0.002);
+}
+
+
+
+// In the dynamics the slope moves by itself when r_u reaches
+// 1 - tan(10 degrees)/sin(30 degrees).
+TEST(PorePressure, SandBeginsToMove)
+{
+  const Table table =
+    run<2>(sand,
+           "pore-sand-moves",
+           sand_slope(10., 30.) +
+             Overrides{"Stages=dynamics",
+                       "End time=40",
+                       "Grid/Cell size=0.25",
+                       "Grid/Upper corner=0.5,6",
+                       "Bodies/layer/Upper corner=0.5,5",
+                       "Materials/sand/Young's modulus=5e6",
+                       "Excess pore pressure/Final=0.8*overburden",
+                       "Excess pore pressure/Duration=40",
+                       "Output/Statistics interval=0.05"});
+  const auto  &speed = table["centre velocity x [m/s]"];
+  unsigned int begin = 0;
+  while (begin + 1 < speed.size() && speed[begin] < 1e-3)
+    ++begin;
+  Verification("Infinite slope of sand with rising pore pressure",
+               "prm/" + sand,
+               "1 - tan(10 degrees)/sin(30 degrees)")
+    .near("r_u when it moves at 1 mm/s",
+          0.4 * (1. - std::cos(M_PI * table["time [s]"][begin] / 40.)),
+          0.6473460386,
+          0.01);
+}

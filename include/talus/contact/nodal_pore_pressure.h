@@ -52,7 +52,7 @@ namespace talus
 
     std::vector<double>          sums_; ///< by node; empty before find()
     NodalExchange<dim>           exchange_;
-    std::vector<NodeWeight<dim>> weights_; ///< of a point
+    std::vector<NodeWeight<dim>> weights_; ///< weights of a point
   };
 } // namespace talus
 

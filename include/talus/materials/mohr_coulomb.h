@@ -47,6 +47,9 @@ namespace talus
     }
 
     Remark
+    note(double cell_size) const override;
+
+    Remark
     note_on_safety() const override;
 
   private:

@@ -45,7 +45,7 @@ namespace talus
     Constants              constants;
     std::filesystem::path  folder; ///< place of the parameter file
     Surfaces<dim>          surfaces;
-    std::vector<InputFile> tables; ///< of strengths and pore pressure
+    std::vector<InputFile> tables; ///< strengths and pressures in depth
   };
 } // namespace talus
 
