@@ -83,7 +83,8 @@ namespace talus
 
 
 
-  // In plane strain soil that flows has the Lode angle 0.
+  // The criterion bounds t K(theta); at the Lode angle of the stress t may reach
+  // the bound over K.
   template <int dim>
   double
   MohrCoulomb<dim>::shear_strength(const Points<dim> &points,
@@ -91,10 +92,14 @@ namespace talus
   {
     const double factor  = this->strength_factor(points, p);
     const double tangent = std::tan(radians(friction_angle_)) * factor;
-    const double mean    = mean_normal(load_stress<dim, double>(points, p));
-    return std::max(0.,
-                    (cohesion_ * factor - mean * tangent) /
-                      std::sqrt(1. + tangent * tangent));
+    const double root    = std::sqrt(1. + tangent * tangent);
+    const auto   stress  = load_stress<dim, double>(points, p);
+    const double mean    = mean_normal(stress);
+    const auto   s       = add_mean(stress, -mean);
+    const double t       = std::sqrt(0.5 * contract(s, s));
+    const double share =
+      t > 0. ? mohr_coulomb_shear<dim, double>(s, t, tangent / root) / t : 1.;
+    return std::max(0., (cohesion_ * factor - mean * tangent) / (root * share));
   }
 
 
