@@ -60,6 +60,16 @@ namespace talus
       return path_;
     }
 
+    /// Return whether the step just found, from the state of @p before, passed
+    /// a maximum of the factor by more than the tolerance: a shorter step must
+    /// find the maximum.
+    bool
+    passes_maximum(const StrengthPath &before) const
+    {
+      return !path_.by_factor && is_past_limit(path_.factor) &&
+             !is_past_limit(before.factor);
+    }
+
     /// Record whether the next step of the path was found, and plan the next:
     /// steps found in few iterations grow.
     void
