@@ -60,14 +60,14 @@ namespace talus
       return path_;
     }
 
-    /// Return whether the step just found, from the state of @p before, passed
-    /// a maximum of the factor by more than the tolerance: a shorter step must
-    /// find the maximum.
+    /// Return whether the factor fell by more than the tolerance in the step
+    /// just found, from the state of @p before, which was not past the largest
+    /// factor: shorter steps must find the largest.
     bool
     passes_maximum(const StrengthPath &before) const
     {
-      return !path_.by_factor && is_past_limit(path_.factor) &&
-             !is_past_limit(before.factor);
+      return !path_.by_factor && !is_past_limit(before.factor) &&
+             path_.factor < (1. - tolerance_) * before.factor;
     }
 
     /// Record whether the next step of the path was found, and plan the next:
