@@ -543,9 +543,7 @@ namespace talus
         SearchLabel        label{stages_.number(), path.factor, true};
         unsigned int       n_iterations = 0;
         StaticProblem<dim> now          = problem();
-        const Saved        before       = save();
-        const StrengthPath path_before  = path;
-        bool               is_found     = equilibrium_.follow(
+        const bool         is_found     = equilibrium_.follow(
           now, path, [&](const EquilibriumProgress &progress) {
             label.strength_factor = path.factor;
             ++n_iterations;
@@ -563,12 +561,6 @@ namespace talus
                       is_found
                         ? ": stands"
                         : ": the step fails. " + equilibrium_.failure()));
-        if (is_found && strength_reduction_.passes_maximum(path_before))
-          {
-            restore(before);
-            path     = path_before;
-            is_found = false;
-          }
         strength_reduction_.record_step(is_found, n_iterations);
       }
   }

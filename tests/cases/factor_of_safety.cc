@@ -114,7 +114,17 @@ TEST(InfiniteSlope, FrictionAndDilatancy)
   expect("psi = 30 degrees, K0 = 0.5",
          1.5862568277,
          {"Materials/sand/Dilatancy angle=30"});
-  expect("psi = 0, K0 = 2", 1.5862568277, {"Bodies/layer/K0=2"});
+  // The factor has a maximum, which long steps of the path pass below.
+  const double pressed =
+    factor("pressed",
+           {"Bodies/layer/K0=2", "Bodies/layer/Points per cell and axis=1"});
+  gates.at_most("factor of safety, psi = 0, K0 = 2, limit equilibrium",
+                pressed,
+                1.5862568277);
+  gates.holds("factor of safety, psi = 0, K0 = 2",
+              text(pressed),
+              "more than with K0 = 0.5",
+              pressed > 1.001 * 1.4774563920);
   expect("psi = 0, Davis, K0 = 2",
          1.4774563920,
          {"Bodies/layer/K0=2", "Strength reduction/Non-associated flow=Davis"});

@@ -60,16 +60,6 @@ namespace talus
       return path_;
     }
 
-    /// Return whether the factor fell by more than the tolerance in the step
-    /// just found, from the state of @p before, which was not past the largest
-    /// factor: shorter steps must find the largest.
-    bool
-    passes_maximum(const StrengthPath &before) const
-    {
-      return !path_.by_factor && !is_past_limit(before.factor) &&
-             path_.factor < (1. - tolerance_) * before.factor;
-    }
-
     /// Record whether the next step of the path was found, and plan the next:
     /// steps found in few iterations grow.
     void
