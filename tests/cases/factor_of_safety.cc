@@ -284,8 +284,7 @@ TEST(TaylorSlope, FactorOfSafety)
 TEST(FrictionalSlope, FactorOfSafety)
 {
   Verification gates("Slope 2:1, phi' = 20 degrees, c'/(gamma H) = 0.05",
-                     "prm/verification/taylor-slope.prm, Bodies/soil/Material="
-                     "sand, Grid/Cell size=0.25, smaller",
+                     "prm/verification/taylor-slope.prm, smaller, with sand",
                      "logarithmic spiral (upper bound), cells of H/40");
   for (const auto &[flow, psi, factor] :
        {std::tuple{"as given", 20., 1.36822}, {"Davis", 0., 1.31892}})
@@ -294,7 +293,14 @@ TEST(FrictionalSlope, FactorOfSafety)
       StaticCase<2>(
         "verification/taylor-slope.prm",
         text("frictional-slope-", psi),
-        {"Bodies/soil/Material=sand",
+        {"Materials/Names=clay, sand",
+         "Materials/sand/Law=Mohr-Coulomb",
+         "Materials/sand/Density=1000",
+         "Materials/sand/Young's modulus=50e6",
+         "Materials/sand/Poisson's ratio=0.3",
+         "Materials/sand/Cohesion=5e3",
+         "Materials/sand/Friction angle=20",
+         "Bodies/soil/Material=sand",
          "Bodies/soil/Vertices=-10,-4; 40,-4; 40,10; 20,10; 0,0; -10,0",
          "Grid/Cell size=0.25",
          "Grid/Lower corner=-10, -4",
