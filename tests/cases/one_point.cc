@@ -100,7 +100,13 @@ TEST(OnePoint, PlaneStrainCompression)
 TEST(OnePoint, FrictionInPlaneStrainCompression)
 {
   Case<2> sample("verification/plane-strain-compression.prm",
-                 {"Bodies/sample/Material=sand"});
+                 {"Materials/Names=clay, sand",
+                  "Materials/sand/Law=Mohr-Coulomb",
+                  "Materials/sand/Density=600",
+                  "Materials/sand/Young's modulus=250e3",
+                  "Materials/sand/Poisson's ratio=0.49",
+                  "Materials/sand/Cohesion=1000",
+                  "Bodies/sample/Material=sand"});
   while (sample->state().time < 200. - 1e-12)
     sample->advance();
   Verification gates("Plane-strain compression, Mohr-Coulomb",

@@ -87,7 +87,7 @@ namespace talus
     double cohesion;  ///< c', Pa
     double friction;  ///< tan(phi') [-]
     double dilatancy; ///< psi, radians
-    double decay;     ///< of psi per plastic shear strain [-]
+    double decay;     ///< decay of psi per plastic shear strain [-]
     double tension;   ///< cut-off of the mean stress, Pa
     /// Whether flow is associated, with cohesion and friction reduced by Davis'
     /// factor cos(psi) cos(phi)/(1 - sin(psi) sin(phi)) @cite davis1968.
