@@ -125,6 +125,12 @@ namespace talus
          "Output/Format."},
         {"Smallest load step",
          " The factor of safety is found without load steps: remove the line."},
+        {"Undrained shear strength",
+         " The laws 'von Mises', 'Bingham' and 'Herschel-Bulkley' have it; "
+         "'Mohr-Coulomb' has 'Cohesion' and 'Friction angle'."},
+        {"Friction angle",
+         " The law 'Mohr-Coulomb' has it; 'von Mises', 'Bingham' and "
+         "'Herschel-Bulkley' have 'Undrained shear strength'."},
         {"Strain",
          " Static stages always use small strain: remove the line. A body at "
          "large strain comes to rest in the stage 'dynamics', with "

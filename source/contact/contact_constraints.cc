@@ -58,6 +58,8 @@ namespace talus
         require_uniform(facet);
         find_masses(facet, constraint);
         constraint.area = facet.area * soil_.share(c);
+        constraint.pore_force =
+          constraint.area * soil_.pore_pressure(facet, constraint.share);
         if (has_memory)
           constraint.averaging_weight =
             averaging_weight(state, facet, constraint);
@@ -79,7 +81,8 @@ namespace talus
     constraint.share[0]  = 1.;
     constraint.mass = constraint.normal_mass = state.nodes.mass(at.node);
     constraint.gap                           = soil_.gap(at);
-    constraint.area = soil_.area_in_contact(state.nodes, at);
+    constraint.area       = soil_.area_in_contact(state.nodes, at);
+    constraint.pore_force = constraint.area * soil_.pore_pressure(at);
     if (has_memory)
       {
         Tensor<1, dim> slip = state.time_step * state.nodes.velocity(at.node);
@@ -209,12 +212,14 @@ namespace talus
   {
     const auto        &facets = facets_.owned();
     const unsigned int n      = facets.size();
-    return bed(place).limit(place < n
-                              ? facets[place].maximum_shear_stress
-                              : face_nodes_.maximum_shear_stress(place - n),
-                            constraints_[place].area,
-                            slip_.places().empty() ? SurfaceState()
-                                                   : slip_.state(place));
+    CoulombLimit       result =
+      bed(place).limit(place < n ? facets[place].maximum_shear_stress
+                                 : face_nodes_.maximum_shear_stress(place - n),
+                       constraints_[place].area,
+                       slip_.places().empty() ? SurfaceState()
+                                              : slip_.state(place));
+    result.pore_force = constraints_[place].pore_force;
+    return result;
   }
 
 

@@ -13,6 +13,8 @@ namespace talus
                              const unsigned char faces,
                              const bool          have_gap)
   {
+    faces_ = faces;
+    pore_pressure_.prepare(grid);
     at_faces_.prepare(grid, faces);
     face_gaps_.prepare(grid, have_gap ? faces : 0);
     if (obstacles_.empty())
@@ -30,12 +32,30 @@ namespace talus
   {
     at_faces_.find(state);
     face_gaps_.find(state);
+    if (state.points.have_pore_pressure())
+      pore_pressure_.find(state, nodes_of_places(state.grid));
     if (obstacles_.empty())
       return;
     find_gaps(state);
     find_fractions(facets_.owned(), fractions_);
     find_fractions(facets_.ghosts(), fractions_of_ghosts_);
     coverage_.find(state, fractions_, fractions_of_ghosts_);
+  }
+
+
+
+  /// Mark the nodes of seabeds and facets, by node, ghosts included.
+  template <int dim>
+  std::vector<unsigned char>
+  SoilAtPlaces<dim>::nodes_of_places(const Grid<dim> &grid) const
+  {
+    std::vector<unsigned char> result(grid.n_nodes(), 0);
+    for (unsigned int node = 0; node < grid.n_nodes(); ++node)
+      result[node] = (grid.faces_of_node(node) & faces_) != 0;
+    if (!obstacles_.empty())
+      for (const auto &at : facets_.nodes_and_obstacles())
+        result[at.node] = 1;
+    return result;
   }
 
 

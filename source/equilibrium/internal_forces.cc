@@ -43,7 +43,8 @@ namespace talus
 
 
   /// First evaluate stress and tangent by the laws, for ranges of points of the
-  /// same material. Then add the forces cell by cell, as the mean of B-bar
+  /// same material; laws return the effective stress, forces follow from the
+  /// total stress. Then add the forces cell by cell, as the mean of B-bar
   /// couples all points of a cell, also of different bodies. The tangent is
   /// kept for add_tangent(): laws return stress and tangent together (by
   /// numbers that carry derivatives), so there is no second pass and no
@@ -73,6 +74,12 @@ namespace talus
                         begin,
                         end,
                         linearizations_.data() + begin);
+        if (points.have_pore_pressure())
+          model.pore_water().linearize(points,
+                                       problem.state.workspace,
+                                       begin,
+                                       end,
+                                       linearizations_.data() + begin);
       });
     find_volumes(problem);
     for (unsigned int c = 0; c < weights.cells().size(); ++c)

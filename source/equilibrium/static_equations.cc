@@ -42,8 +42,9 @@ namespace talus
   StaticEquations<dim>::begin(StaticProblem<dim>  &problem,
                               const StaticOptions &options)
   {
-    is_well_balanced_ = options.is_well_balanced;
-    places_           = places_of_owned_nodes(problem.state.grid);
+    is_well_balanced_       = options.is_well_balanced;
+    tangents_are_symmetric_ = problem.materials.has_symmetric_tangents();
+    places_                 = places_of_owned_nodes(problem.state.grid);
     sum_forces(problem);
     unknowns_.number(problem.state.nodes,
                      problem.state.grid,
@@ -380,6 +381,10 @@ namespace talus
           const unsigned int        begin,
           const unsigned int        end) {
         model.commit_load_step(points, problem.state.workspace, begin, end);
+        model.pore_water().commit_load_step(points,
+                                            problem.state.workspace,
+                                            begin,
+                                            end);
       });
   }
 

@@ -48,6 +48,17 @@ namespace talus
                   includes_seabed_,
                   "Divide friction coefficient and maximum shear stress of the "
                   "seabed, too.");
+    add_parameter("Non-associated flow",
+                  flow_,
+                  "Plastic flow of soil with a dilatancy angle psi below the "
+                  "friction angle phi. 'as given': the factor depends on the "
+                  "initial stress. 'Davis': flow is associated, with cohesion "
+                  "and friction times cos(psi) cos(phi)/(1 - sin(psi) "
+                  "sin(phi)), phi of the divided strength; the factor is "
+                  "unique, in an infinite slope that of 'as given' with K0 < "
+                  "1.",
+                  this->prm,
+                  Patterns::Selection("as given|Davis"));
   }
 
 

@@ -36,11 +36,13 @@ namespace talus
       }
     std::string names = variables == Variables::plan ? "x" : "x,y";
     names += dim == 3 ? ",z" : "";
-    if (variables == Variables::space_and_depth)
+    if (variables >= Variables::space_and_depth)
       {
         names += ",depth";
         depends_on_depth_ = has_word(words, "depth");
       }
+    if (variables == Variables::space_depth_and_overburden)
+      names += ",overburden";
     std::vector<std::string> known_names;
     for (const Named &surface : known)
       {
@@ -58,7 +60,7 @@ namespace talus
   // The mudline is searched only if the expression uses the depth.
   template <int dim>
   double
-  PlaceExpression<dim>::at(const Point<dim> &x) const
+  PlaceExpression<dim>::at(const Point<dim> &x, const double overburden) const
   {
     if (number_)
       return *number_;
@@ -66,8 +68,10 @@ namespace talus
     for (unsigned int d = 0; d < dim; ++d)
       if (d != 1 || variables_ != Variables::plan)
         arguments.push_back(x[d]);
-    if (variables_ == Variables::space_and_depth)
+    if (variables_ >= Variables::space_and_depth)
       arguments.push_back(depends_on_depth_ ? depth_(x) : 0.);
+    if (variables_ == Variables::space_depth_and_overburden)
+      arguments.push_back(overburden);
     for (const Named &surface : surfaces_)
       arguments.push_back(surface.second->height(x));
     return evaluate(arguments);

@@ -13,6 +13,7 @@ namespace talus
   template <int dim>
   ElasticLaw<dim>::ElasticLaw(const std::string &section)
     : MaterialModel<dim>(section)
+    , pore_water_(section)
   {
     this->add_parameter("Young's modulus",
                         young_modulus_,
@@ -57,6 +58,19 @@ namespace talus
                   std::setprecision(6),
                   largest_poisson_ratio,
                   "; 0.49 for undrained clay.")));
+    pore_water_.check(poisson_ratio_);
+  }
+
+
+
+  // The water has one stiffness in all soil of a material, also where the soil
+  // is softer: liquefied soil would lose its incompressibility otherwise.
+  template <int dim>
+  UndrainedWater<dim>
+  ElasticLaw<dim>::pore_water() const
+  {
+    return {pore_water_.stiffness(poisson_ratio_, moduli().bulk),
+            pore_water_.largest_suction()};
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/materials/materials.h>
+#include <talus/points/points_kernel.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -105,6 +106,8 @@ namespace talus
   {
     for (const auto &model : models_)
       model->add_columns(points);
+    if (are_undrained())
+      points.add_pore_pressure();
     for (const auto &model : models_)
       {
         if (model->undrained_strength() != nullptr)
@@ -118,6 +121,41 @@ namespace talus
       points.add_column("strength factor", "-", 1, Inheritance::copied);
     for (const auto &model : models_)
       model->use_strength_factor(strength_factor_);
+  }
+
+
+
+  template <int dim>
+  bool
+  Materials<dim>::are_undrained() const
+  {
+    return std::any_of(models_.begin(), models_.end(), [](const auto &model) {
+      return model->pore_water().stiffness > 0.;
+    });
+  }
+
+
+
+  template <int dim>
+  double
+  Materials<dim>::water_energy(const Points<dim> &points) const
+  {
+    const double *const u   = points.data(points.pore_pressure());
+    double              sum = 0;
+    for_each_material_range(points,
+                            points.all(),
+                            [&](const MaterialModel<dim> &model,
+                                const unsigned int        begin,
+                                const unsigned int        end) {
+                              if (const double stiffness =
+                                    model.pore_water().stiffness;
+                                  stiffness > 0.)
+                                for (unsigned int p = begin; p < end; ++p)
+                                  sum +=
+                                    volume_of_points<dim, double>(points, p) *
+                                    u[p] * u[p] / (2. * stiffness);
+                            });
+    return sum;
   }
 
 
@@ -169,14 +207,15 @@ namespace talus
                                 const Batch              &batch,
                                 const double              dt) const
   {
-    for_each_material_range(points,
-                            batch,
-                            [&](const MaterialModel<dim> &model,
-                                const unsigned int        begin,
-                                const unsigned int        end) {
-                              model.update_stress(
-                                points, workspace, begin, end, dt);
-                            });
+    for_each_material_range(
+      points,
+      batch,
+      [&](const MaterialModel<dim> &model,
+          const unsigned int        begin,
+          const unsigned int        end) {
+        model.update_stress(points, workspace, begin, end, dt);
+        model.pore_water().advance(points, workspace, begin, end, dt);
+      });
   }
 
 

@@ -13,15 +13,4 @@ namespace talus
       return {};
     return dealii::Utilities::string_to_double(words_);
   }
-
-
-
-  std::string
-  UndrainedStrength::table() const
-  {
-    const std::string keyword = "table ";
-    return words_.rfind(keyword, 0) == 0
-             ? dealii::Utilities::trim(words_.substr(keyword.size()))
-             : "";
-  }
 } // namespace talus

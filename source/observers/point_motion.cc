@@ -221,6 +221,22 @@ namespace talus
 
 
 
+  namespace
+  {
+    template <int dim>
+    double
+    largest_pore_pressure(const Points<dim> &points,
+                          const MPI_Comm     communicator)
+    {
+      double result = std::numeric_limits<double>::lowest();
+      for (unsigned int p = 0; p < points.size(); ++p)
+        result = std::max(result, points.data(points.pore_pressure())[p]);
+      return Utilities::MPI::max(result, communicator);
+    }
+  } // namespace
+
+
+
   /// Columns of statistics.csv are explained in doc/output.md. The front by
   /// mass needs additional messages, so it is computed only on request.
   template <int dim>
@@ -256,6 +272,11 @@ namespace talus
                        sums.momentum / sums.mass);
     list.push_back({"maximum speed", "m/s", maximum_speed(state)});
     list.push_back({"maximum speed of points", "m/s", sums.maximum_speed});
+    if (state.points.have_pore_pressure())
+      list.push_back(
+        {"largest excess pore pressure",
+         "Pa",
+         largest_pore_pressure(state.points, state.communicator())});
     list.push_back({"mass", "kg", sums.mass});
     append_vector<dim>(list, "momentum", "kg m/s", sums.momentum);
   }

@@ -105,6 +105,16 @@ namespace talus
 
 
 
+  template <int dim>
+  void
+  Points<dim>::add_pore_pressure()
+  {
+    pore_pressure_ =
+      add_column("excess pore pressure", "Pa", 1, Inheritance::copied);
+  }
+
+
+
   /// A search by name, for code that did not add the column: call before a loop
   /// over points, not within.
   template <int dim>

@@ -176,6 +176,44 @@ namespace talus
 
   namespace
   {
+    template <int dim>
+    Tensor<1, dim>
+    normal_of_layers(const Points<dim> &points,
+                     const unsigned int p,
+                     const Ground<dim> &ground)
+    {
+      if (!ground.is_bottom_face())
+        return ground.layer_normal(
+          load_place(points, points.initial_position, p));
+      Tensor<1, dim> normal;
+      normal[1] = 1.;
+      return normal;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<double>
+  normal_stress_at_rest(const Points<dim>         &points,
+                        const std::vector<double> &weight_density,
+                        const Tensor<1, dim>      &gravity,
+                        const Ground<dim>         &ground,
+                        const MPI_Comm             communicator)
+  {
+    auto result = overburden(points, weight_density, communicator);
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        const Tensor<1, dim> normal = normal_of_layers(points, p, ground);
+        result[p] *= -normal[1] * (gravity * normal);
+      }
+    return result;
+  }
+
+
+
+  namespace
+  {
     /// Check the prerequisites of K0 stress: undeformed ground, and gravity.
     template <int dim>
     void
@@ -200,17 +238,18 @@ namespace talus
 
 
 
-    /// Stress of an infinite slope with y across the layer (doc/method.md,
-    /// section 11): sigma_yy = g_y M, sigma_xx = sigma_zz = K0 sigma_yy,
-    /// sigma_xy = g_x M.
+    /// Effective stress of an infinite slope with y across the layer
+    /// (doc/method.md, section 11): sigma_yy = g_y M + u, sigma_xx = sigma_zz =
+    /// K0 sigma_yy, sigma_xy = g_x M, with the excess pore pressure u, Pa.
     template <int dim>
     Stress<dim, double>
     stress_at_rest(const double          mass_above,
                    const double          K0,
+                   const double          u,
                    const Tensor<1, dim> &gravity)
     {
       Stress<dim, double> sigma{};
-      sigma[1] = gravity[1] * mass_above;
+      sigma[1] = gravity[1] * mass_above + u;
       sigma[0] = sigma[2]            = K0 * sigma[1];
       sigma[stress_index<dim>(0, 1)] = gravity[0] * mass_above;
       return sigma;
@@ -218,19 +257,21 @@ namespace talus
 
 
 
-    /// Stress in layers with the unit @p normal, from the mass per horizontal
-    /// area, kg/m^2.
+    /// Effective stress in layers with the unit @p normal, from the mass per
+    /// horizontal area, kg/m^2, and the excess pore pressure @p u, Pa.
     template <int dim>
     Stress<dim, double>
     stress_at_rest(const double          mass_above,
                    const double          K0,
+                   const double          u,
                    const Tensor<1, dim> &gravity,
                    const Tensor<1, dim> &normal)
     {
       // Per area of the layer, 1/n_y times the horizontal area.
       const double         mass   = mass_above * normal[1];
-      const double         across = mass * (gravity * normal);
-      const Tensor<1, dim> along  = mass * gravity - across * normal;
+      const double         total  = mass * (gravity * normal);
+      const double         across = total + u;
+      const Tensor<1, dim> along  = mass * gravity - total * normal;
       Stress<dim, double>  sigma{};
       sigma[2] = K0 * across; // out of the plane in 2-D
       for (unsigned int i = 0; i < dim; ++i)
@@ -313,14 +354,17 @@ namespace talus
         for (unsigned int p = 0; p < points.size(); ++p)
           if (points.data(points.body)[p] == b)
             {
-              const auto sigma =
+              const double u = points.have_pore_pressure()
+                                 ? points.data(points.pore_pressure())[p]
+                                 : 0.;
+              const auto   sigma =
                 ground.is_bottom_face()
-                  ? stress_at_rest(mass_above[p], initial.K0(), gravity)
-                  : stress_at_rest(mass_above[p],
+                    ? stress_at_rest(mass_above[p], initial.K0(), u, gravity)
+                    : stress_at_rest(mass_above[p],
                                    initial.K0(),
+                                   u,
                                    gravity,
-                                   ground.layer_normal(load_place(
-                                     points, points.initial_position, p)));
+                                   normal_of_layers(points, p, ground));
               store_stress<dim, double>(points, p, sigma);
               const double strength =
                 materials.of_body(b).shear_strength(points, p);
@@ -339,8 +383,10 @@ namespace talus
 
 
 
-  template decltype(overburden<2>)           overburden<2>;
-  template decltype(overburden<3>)           overburden<3>;
-  template decltype(set_geostatic_stress<2>) set_geostatic_stress<2>;
-  template decltype(set_geostatic_stress<3>) set_geostatic_stress<3>;
+  template decltype(overburden<2>)            overburden<2>;
+  template decltype(overburden<3>)            overburden<3>;
+  template decltype(normal_stress_at_rest<2>) normal_stress_at_rest<2>;
+  template decltype(normal_stress_at_rest<3>) normal_stress_at_rest<3>;
+  template decltype(set_geostatic_stress<2>)  set_geostatic_stress<2>;
+  template decltype(set_geostatic_stress<3>)  set_geostatic_stress<3>;
 } // namespace talus

@@ -5,6 +5,7 @@
 #include <talus/problem/geostatic.h>
 #include <talus/problem/layer_ends.h>
 #include <talus/problem/layer_surfaces.h>
+#include <talus/problem/mudline.h>
 #include <talus/problem/problem.h>
 #include <talus/problem/stiffness.h>
 #include <talus/problem/strength_field.h>
@@ -64,9 +65,13 @@ namespace talus
     bodies_.use_surfaces(inputs_.surfaces);
     const std::vector<std::string> names = bodies_.names();
     materials.assign(names, bodies_.names_of_materials());
-    inputs_.strength_tables =
+    inputs_.tables =
       tables_of_strength(materials, bodies_.size(), inputs_.folder);
     trigger.check(names, materials, limits_shear_stress(), end_time);
+    pore_pressure.check(names, end_time);
+    for (const InputFile &table : pore_pressure.tables(inputs_.folder))
+      inputs_.tables.push_back(table);
+    pore_pressure.add_columns(points);
     // The strength factor is a column only if strengths change.
     materials.add_columns(points,
                           trigger.changes_strength() || changes_strength);
@@ -125,6 +130,8 @@ namespace talus
                            inputs_,
                            state.grid.domain_before_growth(),
                            state.communicator());
+    if (pore_pressure.exists())
+      set_pore_pressure(state);
     auto on_stress =
       set_geostatic_stress(points,
                            bodies_.list(),
@@ -134,7 +141,7 @@ namespace talus
                            state.communicator());
     // Without a trigger a slide begins where the soil cannot bear its stress.
     for (Remark &remark : on_stress)
-      if (trigger.end_time() <= 0.)
+      if (trigger.end_time() <= 0. && pore_pressure.end_time() <= 0.)
         remark.severity = Severity::information;
     add_remarks(on_stress);
     look_at_geometry(state);
@@ -146,6 +153,28 @@ namespace talus
                           state.communicator());
     trigger.check_seabed_region(
       Utilities::MPI::sum(contact.slip().n_triggered(), state.communicator()));
+  }
+
+
+
+  /// Before the K0 stress, which needs the pressure. Collective.
+  template <int dim>
+  void
+  Problem<dim>::set_pore_pressure(State<dim> &state) const
+  {
+    std::vector<double> density;
+    for (unsigned int b = 0; b < bodies_.size(); ++b)
+      density.push_back(materials.of_body(b).submerged_density());
+    pore_pressure.set(
+      state.points,
+      normal_stress_at_rest(state.points,
+                            density,
+                            loading.gravity(),
+                            Ground<dim>(state.grid.domain(), &obstacles),
+                            state.communicator()),
+      inputs_,
+      mudline_of(bodies_.list(), state.grid.domain_before_growth()),
+      state.communicator());
   }
 
 
@@ -225,7 +254,9 @@ namespace talus
   {
     if (obstacles.move() || boundaries.has_expressions())
       return std::numeric_limits<double>::infinity();
-    return std::max(trigger.end_time(), loading.time_of_last_change());
+    return std::max({trigger.end_time(),
+                     pore_pressure.end_time(),
+                     loading.time_of_last_change()});
   }
 
 
@@ -262,7 +293,8 @@ namespace talus
   Problem<dim>::facts() const
   {
     std::vector<std::string> result = inputs_.surfaces.notes();
-    for (const std::string &note : {trigger.note(), loading.note()})
+    for (const std::string &note :
+         {trigger.note(), pore_pressure.note(), loading.note()})
       if (!note.empty())
         result.push_back(note);
     const auto on_obstacles = obstacles.facts();

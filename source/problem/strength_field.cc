@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
-#include <talus/geometry/place_expression.h>
 #include <talus/problem/mudline.h>
+#include <talus/problem/quantity_in_depth.h>
 #include <talus/problem/strength_field.h>
-#include <talus/problem/time_table.h>
 
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/normal_distribution.hpp>
@@ -76,15 +75,7 @@ namespace talus
 
   namespace
   {
-    /// Return the checked table in @p file: an invalid or endless file is found
-    /// before a resumed run asks for the checksum.
-    TimeTable
-    strength_table(const std::filesystem::path &file)
-    {
-      return {file,
-              {"undrained shear strength [Pa]"},
-              std::make_pair(std::string("depth"), std::string("m"))};
-    }
+    const std::string column_of_strength = "undrained shear strength [Pa]";
 
 
 
@@ -100,35 +91,21 @@ namespace talus
                     const Mudline<dim>      &mudline)
         : path_(path)
         , mudline_(mudline)
+        , field_(path, strength.words(), column_of_strength, inputs, mudline)
       {
-        if (const std::string table = strength.table(); !table.empty())
-          table_ = strength_table(inputs.folder / table);
-        else
-          expression_.emplace(path,
-                              strength.words(),
-                              inputs.constants,
-                              inputs.surfaces.named());
-        if (expression_)
-          expression_->set_depth(
-            [this](const Point<dim> &x) { return mudline_.depth(x); });
         if (strength.variation().is_active())
           variation_.emplace(strength.variation());
       }
-
-      // The expression refers to this object.
-      StrengthField(const StrengthField &) = delete;
 
       /// Return the strength at @p x, Pa. Throws ExcUser if it is not positive,
       /// unless the user gave the number 0.
       double
       at(const Point<dim> &x) const
       {
-        double strength =
-          table_ ? table_->value(0, mudline_.depth(x)) : expression_->at(x);
+        double strength = field_.at(x);
         if (variation_)
           strength *= (*variation_)(x);
-        AssertThrow(strength > 0. ||
-                      (strength == 0. && expression_ && expression_->number()),
+        AssertThrow(strength > 0. || (strength == 0. && field_.number()),
                     ExcUser(text(path_,
                                  " is ",
                                  strength,
@@ -142,11 +119,10 @@ namespace talus
       }
 
     private:
-      std::string                         path_;
-      const Mudline<dim>                 &mudline_;
-      std::optional<TimeTable>            table_;
-      std::optional<PlaceExpression<dim>> expression_; ///< unless a table
-      std::optional<RandomField<dim>>     variation_;
+      std::string                     path_;
+      const Mudline<dim>             &mudline_;
+      QuantityInDepth<dim>            field_;
+      std::optional<RandomField<dim>> variation_;
     };
   } // namespace
 
@@ -197,15 +173,17 @@ namespace talus
     std::map<std::string, InputFile> tables; // by material
     for (unsigned int b = 0; b < n_bodies; ++b)
       if (const auto *strength = materials.of_body(b).undrained_strength())
-        if (const std::string table = strength->table(); !table.empty())
+        if (const std::string table = name_of_table(strength->words());
+            !table.empty())
           {
             const std::string section = materials.of_body(b).section();
             const std::string name    = section.substr(section.rfind('/') + 1);
             const auto        path    = folder / table;
-            tables[name]              = {"strength of " + name,
-                                         "table",
-                                         path,
-                                         strength_table(path).checksum()};
+            tables[name]              = {
+                           "strength of " + name,
+                           "table",
+                           path,
+                           table_in_depth(path, column_of_strength).checksum()};
           }
     std::vector<InputFile> result;
     for (const auto &[name, table] : tables)

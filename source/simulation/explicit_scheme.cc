@@ -73,6 +73,39 @@ namespace talus
 
 
 
+    /// Work per time on the points of a batch, W, of excess pore pressure that
+    /// the points do not store, since water flows or cavitates; before the step
+    /// changes their volumes: the work of the nodal forces.
+    template <int dim>
+    double
+    power_of_pore_pressure(const Points<dim>        &points,
+                           const Materials<dim>     &materials,
+                           const StepWorkspace<dim> &workspace,
+                           const Batch              &batch)
+    {
+      const double *const u   = points.data(points.pore_pressure());
+      double              sum = 0;
+      materials.for_each_material_range(
+        points,
+        batch,
+        [&](const MaterialModel<dim> &model,
+            const unsigned int        begin,
+            const unsigned int        end) {
+          const UndrainedWater<dim> water = model.pore_water();
+          for (unsigned int p = begin; p < end; ++p)
+            if (water.stiffness == 0. || u[p] <= -water.largest_suction)
+              {
+                double rate = 0;
+                for (unsigned int d = 0; d < dim; ++d)
+                  rate += workspace.velocity_gradient(d, d)[p - batch.begin];
+                sum += u[p] * rate * volume_of_points<dim, double>(points, p);
+              }
+        });
+      return sum;
+    }
+
+
+
     /// Largest norm of the velocity gradient of the points of a batch, 1/s.
     template <int dim>
     double
@@ -286,6 +319,7 @@ namespace talus
                             problem_.materials.strength_factor(),
                             state_.time,
                             state_.time + dt);
+    change_pore_pressure();
     groups_.rewind();
     state_.max_velocity_gradient = 0;
     const auto rule              = transfer_.box_shape().rule;
@@ -304,6 +338,12 @@ namespace talus
       state_.max_velocity_gradient =
         std::max(state_.max_velocity_gradient,
                  largest_gradient(state_.workspace, batch));
+      if (state_.points.have_pore_pressure())
+        state_.accounts.energy("pore pressure work") +=
+          dt * power_of_pore_pressure(state_.points,
+                                      problem_.materials,
+                                      state_.workspace,
+                                      batch);
       timer_.lap(PhaseTimer::grid_to_points);
       problem_.materials.set_cell_sizes(state_.points,
                                         batch,
@@ -320,6 +360,22 @@ namespace talus
       splitter_.mark(state_.points, batch, state_.grid);
       timer_.lap(PhaseTimer::splitting);
     });
+  }
+
+
+
+  /// The change brings energy to water that cannot flow.
+  template <int dim>
+  void
+  ExplicitScheme<dim>::change_pore_pressure()
+  {
+    const double after = state_.time + state_.time_step;
+    if (!problem_.pore_pressure.changes(state_.time, after))
+      return;
+    double &work = state_.accounts.energy("pore pressure work");
+    work -= problem_.materials.water_energy(state_.points);
+    problem_.pore_pressure.update(state_.points, state_.time, after);
+    work += problem_.materials.water_energy(state_.points);
   }
 
 

@@ -14,7 +14,8 @@ namespace talus
     /// Replace the mean stress of each point by the cell mean and keep the
     /// deviator. The first half of B-bar computes the shift. With B-bar the
     /// nodes feel the mean only, so nodal forces are unchanged; without B-bar
-    /// the shift is zero.
+    /// nothing is replaced. With an excess pore pressure u the total stress gets
+    /// the mean, and the shift contains -u.
     template <int dim>
     void
     filter_mean_stress(Points<dim>         &points,
@@ -24,7 +25,10 @@ namespace talus
       points.for_each_batch([&](const Batch &batch) {
         workspace.reinit(batch.begin, batch.end);
         transfer.apply_bbar_to_stress(points, workspace, batch);
-        const double *const shift = workspace.mean_stress_shift();
+        double *const shift = workspace.mean_stress_shift();
+        if (points.have_pore_pressure())
+          for (unsigned int p = batch.begin; p < batch.end; ++p)
+            shift[p - batch.begin] += points.data(points.pore_pressure())[p];
         // Shift all three normal stresses, also in 2-D: the deviator must not
         // change.
         for (unsigned int d = 0; d < 3; ++d)

@@ -483,11 +483,18 @@ namespace talus
     strength_reduction_.begin(
       problem_.materials.largest_strength_factor(state_.points,
                                                  state_.communicator()));
-    if (stages_.contain(Stage::equilibrium))
+    // Soil that stands as it is may fail with Davis' strength.
+    problem_.materials.use_associated_flow(strength_reduction_.is_associated());
+    if (stages_.contain(Stage::equilibrium) &&
+        !strength_reduction_.is_associated())
       start_reduction();
     search_factor(before);
+    const auto remarks = problem_.materials.notes_on_safety();
+    problem_.materials.use_associated_flow(false);
     if (equilibrium_.is_stopped())
       return;
+    for (const Remark &remark : remarks)
+      log_.remark(remark);
     restore(before);
     problem_.scale_seabed_strength(
       strength_reduction_.includes_seabed() ? 1. / standing_factor_ : 1.);

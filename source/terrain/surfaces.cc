@@ -49,7 +49,7 @@ namespace talus
     check_name(const std::string &name)
     {
       static const std::set<std::string> taken = {
-        "x", "y", "z", "t", "pi", "depth"};
+        "x", "y", "z", "t", "pi", "depth", "overburden"};
       AssertThrow(
         !name.empty() && !std::isdigit(name[0]) &&
           std::all_of(name.begin(), name.end(), is_part_of_name) &&

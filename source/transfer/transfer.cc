@@ -214,6 +214,36 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Excess pore pressure of points without the column.
+    struct NoPorePressure
+    {
+      template <typename Number>
+      TALUS_ALWAYS_INLINE Number
+      operator()(const unsigned int /*p*/, Number /*number*/) const
+      {
+        return Number(0.);
+      }
+    };
+
+
+
+    struct PorePressure
+    {
+      template <typename Number>
+      TALUS_ALWAYS_INLINE Number
+      operator()(const unsigned int p, Number /*number*/) const
+      {
+        return load<Number>(u + p);
+      }
+
+      const double *u; ///< by point, Pa
+    };
+  } // namespace
+
+
+
   // Both means are weighted with the volume at the start of the step and run
   // over the same points: only then the pair is adjoint, sum V sigma : D' =
   // sum V sigma' : D, and creates no energy. Bodies in one cell share the mean:
@@ -227,20 +257,40 @@ namespace talus
   // In 2-D q is the mean stress in the plane and not the pressure: D' has only
   // the components in the plane, and with the pressure the pair would not be
   // adjoint. The shift is stored separately: only the forces need it, and the
-  // stress of the point stays unchanged.
+  // stress of the point stays unchanged. The excess pore pressure u is a part of
+  // the total stress that has the same value in all directions: the shift
+  // <q - u> - q takes it along.
   template <int dim>
   void
   Transfer<dim>::apply_bbar_to_stress(const Points<dim>  &points,
                                       StepWorkspace<dim> &workspace,
                                       const Batch        &batch) const
   {
+    double *const       shift = workspace.mean_stress_shift() - batch.begin;
+    const double *const u     = points.have_pore_pressure()
+                                  ? points.data(points.pore_pressure())
+                                  : nullptr;
     if (!uses_bbar(points, batch))
-      {
-        std::fill_n(workspace.mean_stress_shift(), batch.end - batch.begin, 0.);
-        return;
-      }
-    const auto    columns = points.view();
-    double *const shift   = workspace.mean_stress_shift() - batch.begin;
+      for (unsigned int p = batch.begin; p < batch.end; ++p)
+        shift[p] = u ? -u[p] : 0.;
+    else if (u)
+      set_shift(points, workspace, batch, shift, PorePressure{u});
+    else
+      set_shift(points, workspace, batch, shift, NoPorePressure());
+  }
+
+
+
+  template <int dim>
+  template <typename Pressure>
+  void
+  Transfer<dim>::set_shift(const Points<dim>  &points,
+                           StepWorkspace<dim> &workspace,
+                           const Batch        &batch,
+                           double             *shift,
+                           const Pressure     &pressure) const
+  {
+    const auto columns = points.view();
     shift_to_cell_means(
       points,
       workspace,
@@ -250,10 +300,12 @@ namespace talus
         Number q(0.);
         for (unsigned int d = 0; d < dim; ++d)
           q += load<Number>(columns.data(columns.stress, d) + p);
-        return q * (1. / dim);
+        return q * (1. / dim) - pressure(p, number);
       },
-      [&](const unsigned int p, const auto &difference)
-        TALUS_INLINE_LAMBDA { store(shift + p, difference); });
+      [&](const unsigned int p, const auto &difference) TALUS_INLINE_LAMBDA {
+        using Number = std::decay_t<decltype(difference)>;
+        store(shift + p, difference - pressure(p, Number()));
+      });
   }
 
 

@@ -256,6 +256,22 @@ class BadInput(Case):
             "subsection Materials\n subsection clay",
             "'Strength reduction/Smallest factor' is 5", "2", "Exchange")
 
+    def test_friction(self):
+        law = "Materials/clay/Law=Mohr-Coulomb"
+        for settings, words in (
+                (["Dilatancy angle=35"], ["`Dilatancy angle` is 35",
+                                          "friction angle, 30"]),
+                (["Friction angle=20", "Dilatancy angle=-30"], ["is -30"]),
+                (["Friction angle=0"], ["`Cohesion` and `Friction angle`"]),
+                (["Undrained shear strength=1e3"], ["'von Mises'"])):
+            self.assert_refused(
+                self.run_file(settings=[law] + ["Materials/clay/" + s
+                                                for s in settings]), *words)
+        self.assert_refused(
+            self.run_file(settings=["Materials/clay/Law=von Mises",
+                                    "Materials/clay/Friction angle=30"]),
+            "'Mohr-Coulomb'")
+
     def test_residual_strength_above_the_strength(self):
         """Whichever way the strength is given; the law would raise it."""
         (self.folder / "strength.csv").write_text(

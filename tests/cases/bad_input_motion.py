@@ -43,6 +43,26 @@ class BadInputMotion(Case):
             with self.subTest(settings):
                 self.refuse_trigger(settings, *words)
 
+    def test_excess_pore_pressure(self):
+        weight = ["Gravity/Magnitude=10"]
+        for settings, *words in (
+                (["Bodies=block"], "'Excess pore pressure/Bodies'", "no soil"),
+                (["Initial=1", "Duration=1"], "'Final' is empty"),
+                (["Final=1", "Start time=0.01"], "ends at 0.01 s", "'End time'"),
+                (["Initial=1", "Bodies=blok"], "'blok'", "only: block"),
+                (["Initial=2*weight"], "'Excess pore pressure/Initial'",
+                 "cannot be understood", "overburden"),
+                (["Initial=1.1*overburden"], "'Excess pore pressure/Initial' is",
+                 "would float", "largest ratio is 1.1"),
+                (["Final=1e6*depth"], "'Excess pore pressure/Final'",
+                 "would float"),
+                (["Initial=table none.csv"], "none.csv", "cannot be read")):
+            with self.subTest(settings):
+                self.assert_refused(self.run_file(
+                    GOOD, weight + ["Excess pore pressure/" + s
+                                    for s in settings]), *words)
+                self.assert_untouched()
+
     def test_trigger_of_obstacles_without_a_limit(self):
         obstacle = ("\nsubsection Obstacles\n  set Names = bed\n"
                     "  subsection bed\n    set Shape = half-plane\n"

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <tuple>
 
 using namespace talus;
 using namespace talus::cases;
@@ -78,6 +79,66 @@ TEST(InfiniteSlope, FactorOfSafetyBelowOne)
       EXPECT_TRUE(
         (*slope).static_stages().strength_reduction().is_less_than_one());
     }
+}
+
+
+
+// Soil without cohesion whose flow is not normal to the yield surface shears
+// along lines of no extension, so that the slope fails at
+// cos(psi) sin(phi_F) = tan(20 degrees) (1 - sin(phi_F) sin(psi)) with
+// tan(phi_F) = tan(phi)/F, unless the ground was pressed sideways at the start:
+// then, and with psi = phi, at F = tan(phi)/tan(20 degrees).
+TEST(InfiniteSlope, FrictionAndDilatancy)
+{
+  Verification gates("Infinite slope of 20 degrees with friction, 30 degrees",
+                     "prm/verification/infinite-slope-friction.prm",
+                     "limit equilibrium 1.58626; lines of no extension");
+  unsigned int number = 0;
+  const auto   factor = [](const std::string &name, const Overrides &settings) {
+    return StaticCase<2>("verification/infinite-slope-friction.prm",
+                         "infinite-slope-friction-" + name,
+                         settings)
+      .factor_of_safety();
+  };
+  const auto expect =
+    [&](const std::string &name, const double reference, Overrides settings) {
+      gates.near("factor of safety, " + name,
+                 factor(std::to_string(number++), settings),
+                 reference,
+                 0.001);
+    };
+  expect("psi = 0, K0 = 0.5", 1.4774563920, {});
+  expect("psi = 10 degrees, K0 = 0.5",
+         1.5589376051,
+         {"Materials/sand/Dilatancy angle=10"});
+  expect("psi = 30 degrees, K0 = 0.5",
+         1.5862568277,
+         {"Materials/sand/Dilatancy angle=30"});
+  // The factor has a maximum, which long steps of the path pass below.
+  const double pressed =
+    factor("pressed",
+           {"Bodies/layer/K0=2", "Bodies/layer/Points per cell and axis=1"});
+  gates.at_most("factor of safety, psi = 0, K0 = 2, limit equilibrium",
+                pressed,
+                1.5862568277);
+  gates.holds("factor of safety, psi = 0, K0 = 2",
+              text(pressed),
+              "more than with K0 = 0.5",
+              pressed > 1.001 * 1.4774563920);
+  expect("psi = 0, Davis, K0 = 2",
+         1.4774563920,
+         {"Bodies/layer/K0=2", "Strength reduction/Non-associated flow=Davis"});
+  expect("slope 10 degrees, psi = 0, K0 = 0.5",
+         3.2230129526,
+         {"Gravity/Slope angle=10"});
+  // The lowest cell has the stress of its middle, at the vertical depth z.
+  const double z = 4.975 / std::cos(M_PI / 12.); // m
+  expect("slope 15 degrees, phi' = 25 degrees, c'/(gamma z) = 1/12, K0 = 0.5",
+         2.0205062442,
+         {"Gravity/Slope angle=15",
+          text("Gravity/Magnitude=", 60. / z),
+          "Materials/sand/Friction angle=25",
+          "Materials/sand/Cohesion=5e3"});
 }
 
 
@@ -213,6 +274,42 @@ TEST(TaylorSlope, FactorOfSafety)
                  1.47,
                  0.01);
     }
+}
+
+
+
+// With Davis' strength and psi = 0 the factor of the bound, 1.36822, becomes
+// F = 1.36822 cos(phi_F). On cells of H/10 and H/20 the factor is 8 % and 5 %
+// too large: the slip surface is shallow.
+TEST(FrictionalSlope, FactorOfSafety)
+{
+  Verification gates("Slope 2:1, phi' = 20 degrees, c'/(gamma H) = 0.05",
+                     "prm/verification/taylor-slope.prm, smaller, with sand",
+                     "logarithmic spiral (upper bound), cells of H/40");
+  for (const auto &[flow, psi, factor] :
+       {std::tuple{"as given", 20., 1.36822}, {"Davis", 0., 1.31892}})
+    gates.near(
+      text("factor of safety, psi = ", psi, " degrees, flow ", flow),
+      StaticCase<2>(
+        "verification/taylor-slope.prm",
+        text("frictional-slope-", psi),
+        {"Materials/Names=clay, sand",
+         "Materials/sand/Law=Mohr-Coulomb",
+         "Materials/sand/Density=1000",
+         "Materials/sand/Young's modulus=50e6",
+         "Materials/sand/Poisson's ratio=0.3",
+         "Materials/sand/Cohesion=5e3",
+         "Materials/sand/Friction angle=20",
+         "Bodies/soil/Material=sand",
+         "Bodies/soil/Vertices=-10,-4; 40,-4; 40,10; 20,10; 0,0; -10,0",
+         "Grid/Cell size=0.25",
+         "Grid/Lower corner=-10, -4",
+         "Grid/Upper corner=40, 12",
+         text("Materials/sand/Dilatancy angle=", psi),
+         text("Strength reduction/Non-associated flow=", flow)})
+        .factor_of_safety(),
+      factor,
+      0.03);
 }
 
 

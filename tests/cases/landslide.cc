@@ -64,6 +64,36 @@ TEST(LandslideCoarse, WithAndWithoutSplitting)
 
 
 
+// In plane strain Tresca's soil, Mohr-Coulomb without friction, flows at the
+// same shear stress as von Mises' soil.
+TEST(LandslideCoarse, MohrCoulombWithoutFriction)
+{
+  Verification gates("Landslide, h = 0.8 m, Mohr-Coulomb, phi = 0, c = s_u",
+                     "prm/landslide-quick.prm, Grid/Cell size=0.8, "
+                     "Materials/clay/Law=Mohr-Coulomb",
+                     "the same with von Mises");
+  const Table  tresca =
+    run<2>("landslide-quick.prm",
+           "landslide-coarse-tresca",
+           stretched + Overrides{"Grid/Cell size=0.8",
+                                 "Materials/Names=clay, tresca",
+                                 "Materials/tresca/Law=Mohr-Coulomb",
+                                 "Materials/tresca/Density=600",
+                                 "Materials/tresca/Young's modulus=250e3",
+                                 "Materials/tresca/Poisson's ratio=0.49",
+                                 "Materials/tresca/Cohesion=2.5e3",
+                                 "Materials/tresca/Friction angle=0",
+                                 "Materials/tresca/Tension cut-off=1e9",
+                                 "Bodies/slide/Material=tresca"});
+  expect_split_landslide(gates, tresca, 0.004);
+  gates.at_most(
+    "front x [m], difference",
+    relative_difference(tresca, shared_run("slide-coarse"), "front x [m]", 30.),
+    0.005);
+}
+
+
+
 // What compression and rest no longer need goes: the soil is as whole as
 // without merging, the front the same.
 TEST(LandslideMerged, ReturnsToThePointsOfTheStart)

@@ -96,6 +96,30 @@ TEST(OnePoint, PlaneStrainCompression)
 
 
 
+// No stress on the sides: s_1 = 2 c tan(45 degrees + phi/2).
+TEST(OnePoint, FrictionInPlaneStrainCompression)
+{
+  Case<2> sample("verification/plane-strain-compression.prm",
+                 {"Materials/Names=clay, sand",
+                  "Materials/sand/Law=Mohr-Coulomb",
+                  "Materials/sand/Density=600",
+                  "Materials/sand/Young's modulus=250e3",
+                  "Materials/sand/Poisson's ratio=0.49",
+                  "Materials/sand/Cohesion=1000",
+                  "Bodies/sample/Material=sand"});
+  while (sample->state().time < 200. - 1e-12)
+    sample->advance();
+  Verification gates("Plane-strain compression, Mohr-Coulomb",
+                     "prm/verification/plane-strain-compression.prm",
+                     "2 c sqrt(K_p)");
+  gates.near("plateau [Pa]",
+             -StressOf(sample.points(), 0).yy,
+             2000. * std::sqrt(3.),
+             1e-5);
+}
+
+
+
 namespace
 {
   /// Largest error over one turn in steps of a quarter, Pa.

@@ -168,6 +168,27 @@ class Ranks(Runs):
             self.assertEqual(table["points"][-1], 320)
             self.assertGreater(self.changes(f"ranks-{n_ranks}")[1], 1)
 
+    def test_pore_pressure(self):
+        """A slab slides on an obstacle through the cells, where ranks share places."""
+        settings = TERSE + BALANCE + [
+            "Gravity/Slope angle=10", "End time=2", "Materials/stiff/Young's modulus=1e6",
+            "Grid/Lower corner=0, -0.5", "Grid/Upper corner=4, 2",
+            "Bodies/block/Lower corner=0, 0.1", "Bodies/block/Upper corner=4, 1.1",
+            "Bodies/block/K0=0.5",
+            "Boundaries/Left=periodic", "Boundaries/Right=periodic",
+            "Boundaries/Bottom=free", "Obstacles/Names=plane",
+            "Obstacles/plane/Shape=half-plane", "Obstacles/plane/Point=0, 0.1",
+            "Obstacles/plane/Normal=0, 1", "Obstacles/plane/Friction coefficient=0.5",
+            "Excess pore pressure/Initial=0.2*overburden",
+            "Excess pore pressure/Final=0.8*overburden",
+            "Excess pore pressure/Duration=2"]
+        file = "verification/block-on-incline.prm"
+        alone = self.run_on(1, settings, file)
+        self.assertGreater(alone["centre velocity x [m/s]"][-1], 0.1)
+        self.assertGreater(alone["pore pressure work [J]"][-1], 1)
+        for n_ranks in (2, 4):
+            self.assert_same(self.run_on(n_ranks, settings, file), alone)
+
     def test_obstacles(self):
         """A seabed through a mesh that changes; a pipe that moves."""
         slide = "landslide-inclined.prm"

@@ -127,6 +127,25 @@ namespace talus
     }
 
     friend Dual
+    sin(const Dual &a)
+    {
+      return a.chain(std::sin(a.value), std::cos(a.value));
+    }
+
+    friend Dual
+    cos(const Dual &a)
+    {
+      return a.chain(std::cos(a.value), -std::sin(a.value));
+    }
+
+    friend Dual
+    asin(const Dual &a)
+    {
+      return a.chain(std::asin(a.value),
+                     1. / std::sqrt(1. - a.value * a.value));
+    }
+
+    friend Dual
     exp(const Dual &a)
     {
       const double v = std::exp(a.value);

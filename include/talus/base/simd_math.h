@@ -8,10 +8,13 @@
 
 namespace talus
 {
+  using std::asin;
+  using std::cos;
   using std::exp;
   using std::expm1;
   using std::log;
   using std::pow;
+  using std::sin;
 
   inline namespace TALUS_SIMD_NAMESPACE
   {
@@ -78,6 +81,33 @@ namespace talus
                         log(const Simd<n> &x)
     {
       return by_xsimd(x, [](const auto &v) { return xsimd::log(v); });
+    }
+
+
+
+    template <unsigned int n>
+    TALUS_ALWAYS_INLINE Simd<n>
+                        sin(const Simd<n> &x)
+    {
+      return by_xsimd(x, [](const auto &v) { return xsimd::sin(v); });
+    }
+
+
+
+    template <unsigned int n>
+    TALUS_ALWAYS_INLINE Simd<n>
+                        cos(const Simd<n> &x)
+    {
+      return by_xsimd(x, [](const auto &v) { return xsimd::cos(v); });
+    }
+
+
+
+    template <unsigned int n>
+    TALUS_ALWAYS_INLINE Simd<n>
+                        asin(const Simd<n> &x)
+    {
+      return by_xsimd(x, [](const auto &v) { return xsimd::asin(v); });
     }
 
 

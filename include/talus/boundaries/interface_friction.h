@@ -22,12 +22,14 @@ namespace talus
 
 
   /// Friction of soil on a place of a surface. At rest the force is at most
-  /// proportional to the normal force, up to a cap, which slip may reduce; a
-  /// film of mud adds a viscous force on soil that slips.
+  /// proportional to the effective normal force, the normal force less the force
+  /// of excess pore pressure, up to a cap, which slip may reduce; a film of mud
+  /// adds a viscous force on soil that slips.
   struct CoulombLimit
   {
     double coefficient = 0; ///< Coulomb friction [-]
     double cap         = 0; ///< maximum shear stress times area, N
+    double pore_force  = 0; ///< excess pore pressure times area, N
 
     // A cap reduced by slip is min(ceiling, residual + excess e^(-rate s))
     // after a further slip s.
@@ -55,12 +57,21 @@ namespace talus
                : cap;
     }
 
+    /// Return Coulomb's friction, N, for a normal force, N.
+    double
+    friction(const double normal_force) const
+    {
+      return coefficient * (pore_force == 0.
+                              ? normal_force
+                              : std::max(0., normal_force - pore_force));
+    }
+
     /// Return the maximum friction force, N, for a normal force, N, after a
     /// further slip, m.
     double
     force(const double normal_force, const double slip = 0.) const
     {
-      return std::min(coefficient * normal_force, cap_after(slip));
+      return std::min(friction(normal_force), cap_after(slip));
     }
 
     /// Return the derivative of force() by the slip, N/m; at most 0.
@@ -68,7 +79,7 @@ namespace talus
     slope(const double normal_force, const double slip) const
     {
       const double lost = softens() ? excess * std::exp(-rate * slip) : 0.;
-      return residual + lost < std::min(ceiling, coefficient * normal_force)
+      return residual + lost < std::min(ceiling, friction(normal_force))
                ? -rate * lost
                : 0.;
     }
@@ -89,7 +100,8 @@ namespace talus
     bool
     increases_at(const double normal_force, const double slip = 0.) const
     {
-      return coefficient * normal_force < cap_after(slip);
+      return friction(normal_force) < cap_after(slip) &&
+             (pore_force == 0. || normal_force > pore_force);
     }
   };
 

@@ -25,6 +25,7 @@ namespace talus
     double mass        = 0; ///< effective mass without walls, kg
     double gap         = 0; ///< between soil and surface, m, >= 0
     double area        = 0; ///< in contact, m^(dim-1)
+    double pore_force  = 0; ///< force of excess pore pressure, N
     /// Weight of the current normal impulse in the running mean [-].
     double averaging_weight = 1;
   };

@@ -9,6 +9,7 @@
 #include <talus/contact/facet_coverage.h>
 #include <talus/contact/facets.h>
 #include <talus/contact/nodal_gaps.h>
+#include <talus/contact/nodal_pore_pressure.h>
 #include <talus/contact/surface_tables.h>
 #include <talus/grid/nodal_exchange.h>
 
@@ -73,6 +74,30 @@ namespace talus
       return at.area * at_faces_.share(at.face, at.node, at.area, f);
     }
 
+    /// Excess pore pressure of the soil at a node on a seabed face, Pa.
+    double
+    pore_pressure(const FaceNode<dim> &at) const
+    {
+      const double one = 1.;
+      return pore_pressure_.at(
+        &at.node, &one, 1, at.x, at.normal(), at.cell_size());
+    }
+
+    /// Excess pore pressure of the soil at a facet, Pa; @p share of the nodes
+    /// [-].
+    double
+    pore_pressure(
+      const ContactFacet<dim>                              &facet,
+      const std::array<double, ContactFacet<dim>::n_nodes> &share) const
+    {
+      return pore_pressure_.at(facet.node.data(),
+                               share.data(),
+                               share.size(),
+                               facet.centroid,
+                               facet.normal,
+                               facet.cell_size);
+    }
+
     /// Clearance between the soil at a node and a seabed face, m: distance in
     /// excess of the contact distance.
     double
@@ -98,21 +123,25 @@ namespace talus
     surfaces() const;
     std::vector<unsigned int>
     slots(const Grid<dim> &grid) const;
+    std::vector<unsigned char>
+    nodes_of_places(const Grid<dim> &grid) const;
     void
     find_gaps(const State<dim> &state);
     void
     find_fractions(const std::vector<ContactFacet<dim>> &facets,
                    std::vector<double>                  &fractions) const;
 
-    const Obstacles<dim> &obstacles_;
-    const Facets<dim>    &facets_;
-    FaceCoverage<dim>     at_faces_;
-    FaceGaps<dim>         face_gaps_;
-    SurfaceTables<dim>    tables_{obstacles_};
-    NodalGaps<dim>        gaps_; ///< surfaces: the obstacles
-    FacetCoverage<dim>    coverage_{obstacles_, facets_};
-    std::vector<double>   fractions_;           ///< by owned facet [-]
-    std::vector<double>   fractions_of_ghosts_; ///< by ghost facet [-]
+    const Obstacles<dim>  &obstacles_;
+    const Facets<dim>     &facets_;
+    FaceCoverage<dim>      at_faces_;
+    FaceGaps<dim>          face_gaps_;
+    SurfaceTables<dim>     tables_{obstacles_};
+    NodalGaps<dim>         gaps_; ///< surfaces: the obstacles
+    FacetCoverage<dim>     coverage_{obstacles_, facets_};
+    NodalPorePressure<dim> pore_pressure_;
+    unsigned char          faces_ = 0;           ///< seabeds, bit f for face f
+    std::vector<double>    fractions_;           ///< by owned facet [-]
+    std::vector<double>    fractions_of_ghosts_; ///< by ghost facet [-]
   };
 } // namespace talus
 

@@ -162,7 +162,7 @@ namespace talus
     bool
     is_symmetric() const
     {
-      return contact_.is_symmetric();
+      return contact_.is_symmetric() && tangents_are_symmetric_;
     }
 
   private:
@@ -181,7 +181,8 @@ namespace talus
     GhostStabilization<dim> ghost_;
     StaticContact<dim>      contact_;
     WellBalancedLoad<dim>   well_balanced_;
-    bool                    is_well_balanced_ = false;
+    bool                    is_well_balanced_       = false;
+    bool                    tangents_are_symmetric_ = true;
 
     StiffnessMatrix<dim>            matrix_;
     LuFactorization                 factorization_{dim};

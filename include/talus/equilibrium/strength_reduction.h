@@ -111,6 +111,14 @@ namespace talus
       return includes_seabed_;
     }
 
+    /// Return whether soil whose plastic flow is not associated is replaced by
+    /// soil with associated flow and less strength @cite davis1968.
+    bool
+    is_associated() const
+    {
+      return flow_ == "Davis";
+    }
+
   private:
     double
     min_factor() const
@@ -136,6 +144,8 @@ namespace talus
     double smallest_          = 0.01;
     double allowed_imbalance_ = 0.;
     bool   includes_seabed_   = true;
+
+    std::string flow_ = "as given";
 
     double       lower_ = 0, upper_ = 0;
     double       largest_strength_ = 0;

@@ -18,7 +18,8 @@ namespace talus
 {
   /// Quantity given by the user for each place: a number, or an expression in
   /// coordinates of the place and the named surfaces, perhaps also in `depth`,
-  /// the depth of the place below the initial mudline, m. The name of a surface
+  /// the depth of the place below the initial mudline, m, and in `overburden`,
+  /// Pa. The name of a surface
   /// is the height, or the number of the raster, in the vertical of the place.
   template <int dim>
   class PlaceExpression
@@ -29,9 +30,10 @@ namespace talus
     /// Variables beside the surfaces, in the order of the arguments.
     enum class Variables
     {
-      plan,           ///< x (and z)
-      space,          ///< x, y (and z)
-      space_and_depth ///< x, y (and z), depth
+      plan,            ///< x (and z)
+      space,           ///< x, y (and z)
+      space_and_depth, ///< x, y (and z), depth
+      space_depth_and_overburden
     };
 
     /// Variables in their order, then the surfaces.
@@ -78,8 +80,9 @@ namespace talus
 
     /// Return the value at @p x, m. Throws ExcUser where a surface is
     /// undefined, ExcPoint if the value is not finite.
+    /// @param overburden weight of the soil above, Pa
     double
-    at(const dealii::Point<dim> &x) const;
+    at(const dealii::Point<dim> &x, double overburden = 0.) const;
 
     /// Return the value for @p arguments. Throws ExcPoint if it is not finite.
     double

@@ -28,13 +28,16 @@ namespace talus
       return moduli().mu;
     }
 
-    /// Return whether Poisson's ratio exceeds 0.4: linear cells would then
-    /// respond to shear with pressure and lock.
+    /// Return whether Poisson's ratio of soil and water exceeds 0.4: linear
+    /// cells would then respond to shear with pressure and lock.
     bool
     is_nearly_incompressible() const override
     {
-      return poisson_ratio_ > 0.4;
+      return poisson_ratio_ > 0.4 || pore_water_.is_undrained();
     }
+
+    UndrainedWater<dim>
+    pore_water() const override;
 
   protected:
     Moduli
@@ -48,8 +51,9 @@ namespace talus
     }
 
   private:
-    double young_modulus_ = 1e6;
-    double poisson_ratio_ = 0.3;
+    double    young_modulus_ = 1e6;
+    double    poisson_ratio_ = 0.3;
+    PoreWater pore_water_;
   };
 } // namespace talus
 

@@ -68,15 +68,18 @@ namespace talus
                                                    double *modulus) const
   {
     const StrainEnergy energy  = strain_energy();
+    const double       water   = this->pore_water().stiffness;
     const auto         columns = points.view();
-    for_each_simd(
-      begin, end, [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
-        using Number     = decltype(number);
-        const auto state = deformation_state<dim, Number>(
-          load_matrix<dim, Number>(columns, deformation_, p));
-        const Number JM = energy.largest_modulus(state);
-        store<Number>(modulus + (p - begin), JM / (1. + state.J_minus_1));
-      });
+    for_each_simd(begin,
+                  end,
+                  [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+                    using Number     = decltype(number);
+                    const auto state = deformation_state<dim, Number>(
+                      load_matrix<dim, Number>(columns, deformation_, p));
+                    const Number JM = energy.largest_modulus(state);
+                    store<Number>(modulus + (p - begin),
+                                  JM / (1. + state.J_minus_1) + water);
+                  });
   }
 } // namespace talus
 

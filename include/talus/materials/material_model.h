@@ -3,6 +3,7 @@
 #define talus_materials_material_model_h
 
 #include <talus/base/remark.h>
+#include <talus/materials/pore_water.h>
 #include <talus/materials/undrained_strength.h>
 #include <talus/points/points.h>
 #include <talus/points/step_workspace.h>
@@ -210,6 +211,35 @@ namespace talus
     /// Return whether cells would lock, so that B-bar is on by default.
     virtual bool
     is_nearly_incompressible() const = 0;
+
+    /// Return the pore water; without stiffness if the soil is drained.
+    virtual UndrainedWater<dim>
+    pore_water() const
+    {
+      return {0., 0.};
+    }
+
+    /// Return whether the derivatives of linearize() are symmetric.
+    virtual bool
+    has_symmetric_tangent() const
+    {
+      return true;
+    }
+
+    /// Let plastic flow be normal to the yield surface, with the strength
+    /// reduced by Davis' factor; see MohrCoulombFlow. Laws whose flow is normal
+    /// anyway do nothing.
+    virtual void
+    use_associated_flow(bool /*is_associated*/)
+    {}
+
+    /// Return a remark on the factor of safety, if plastic flow is not normal
+    /// to the yield surface; may be empty.
+    virtual Remark
+    note_on_safety() const
+    {
+      return "";
+    }
 
     /// Return a remark on the material in cells of @p cell_size, m; may be
     /// empty.

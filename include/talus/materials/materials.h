@@ -50,8 +50,8 @@ namespace talus
     std::vector<Remark>
     notes(double cell_size) const;
 
-    /// Declare the internal variables of all laws and, if
-    /// @p with_strength_factor, the column of factors of the strength. The
+    /// Declare the internal variables of all laws, the pore pressure of
+    /// undrained soil, and, if @p with_strength_factor, the column of factors of the strength. The
     /// factor costs memory and time in each step, so request it only if it
     /// changes.
     void
@@ -74,6 +74,14 @@ namespace talus
       return undrained_strength_;
     }
 
+    /// Energy of the water compressed in undrained soil, sum of V u^2/(2 K_f), J.
+    double
+    water_energy(const Points<dim> &points) const;
+
+    /// Whether the pore water of a material is undrained.
+    bool
+    are_undrained() const;
+
     /// Range of undrained_strength() in the soil of @p body, Pa; {0, 0} if the
     /// material does not use the column. Collective.
     StrengthRange
@@ -86,6 +94,33 @@ namespace talus
     double
     largest_strength_factor(const Points<dim> &points,
                             MPI_Comm           communicator) const;
+
+    /// Return whether the derivatives of all laws are symmetric.
+    bool
+    has_symmetric_tangents() const
+    {
+      return std::all_of(models_.begin(), models_.end(), [](const auto &model) {
+        return model->has_symmetric_tangent();
+      });
+    }
+
+    /// See MaterialModel::use_associated_flow().
+    void
+    use_associated_flow(const bool is_associated)
+    {
+      for (const auto &model : models_)
+        model->use_associated_flow(is_associated);
+    }
+
+    /// Remarks on the factor of safety of all materials.
+    std::vector<Remark>
+    notes_on_safety() const
+    {
+      std::vector<Remark> result;
+      for (const auto &model : models_)
+        result.push_back(model->note_on_safety());
+      return joined(result);
+    }
 
     /// Tell all laws the largest edge of cells with soil, m.
     void

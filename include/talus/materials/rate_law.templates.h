@@ -205,7 +205,9 @@ namespace talus
                                        const unsigned int end,
                                        double            *modulus) const
   {
-    std::fill_n(modulus, end - begin, this->moduli().longitudinal());
+    std::fill_n(modulus,
+                end - begin,
+                this->moduli().longitudinal() + this->pore_water().stiffness);
   }
 } // namespace talus
 

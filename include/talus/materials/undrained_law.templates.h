@@ -97,6 +97,14 @@ namespace talus
   {
     RateLaw<dim, FlowRule>::check();
     strength_.variation().check(dim, this->section());
+    AssertThrow(!has_moduli_of_points() || this->pore_water().stiffness == 0.,
+                ExcUser(text("Section ",
+                             this->section(),
+                             ": `Stiffness ratio` makes the soil stiff in "
+                             "proportion to its strength, but undrained pore "
+                             "water needs one Young's modulus for its "
+                             "stiffness. Remove the ratio, or let `Pore "
+                             "water/Drainage` be drained.")));
   }
 
 

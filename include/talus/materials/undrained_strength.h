@@ -34,10 +34,6 @@ namespace talus
     std::optional<double>
     number() const;
 
-    /// File name if the entry is a table; otherwise empty.
-    std::string
-    table() const;
-
     /// Random field by which the strength is multiplied.
     StrengthVariation &
     variation()

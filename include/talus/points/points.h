@@ -6,6 +6,7 @@
 #include <talus/points/rows.h>
 
 #include <deal.II/base/array_view.h>
+#include <deal.II/base/numbers.h>
 #include <deal.II/base/point.h>
 
 #include <algorithm>
@@ -104,6 +105,25 @@ namespace talus
                const std::string &unit,
                unsigned int       n_scalars,
                Inheritance        inheritance);
+
+    /// Add or find the column of the excess pore pressure u, Pa, compression
+    /// positive. With the column the stress of the points is effective: nodal
+    /// forces and friction see the total stress, stress - u I.
+    void
+    add_pore_pressure();
+
+    bool
+    have_pore_pressure() const
+    {
+      return pore_pressure_ != dealii::numbers::invalid_unsigned_int;
+    }
+
+    /// Column of the excess pore pressure; invalid without.
+    unsigned int
+    pore_pressure() const
+    {
+      return pore_pressure_;
+    }
 
     const std::vector<Column> &
     columns() const
@@ -367,8 +387,9 @@ namespace talus
     void
     reserve(unsigned int n);
 
-    unsigned int         size_     = 0;
-    unsigned int         capacity_ = 0;
+    unsigned int         size_          = 0;
+    unsigned int         capacity_      = 0;
+    unsigned int         pore_pressure_ = dealii::numbers::invalid_unsigned_int;
     std::vector<Column>  columns_;
     Rows                 arrays_;
     std::vector<Segment> segments_;

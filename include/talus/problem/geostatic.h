@@ -30,10 +30,22 @@ namespace talus
              const std::vector<double> &weight_density,
              MPI_Comm                   communicator);
 
+  /// Return the stress across the layers along the @p ground at rest at each
+  /// point, -g_n M n_y, Pa, compression positive; see set_geostatic_stress().
+  /// Collective.
+  template <int dim>
+  std::vector<double>
+  normal_stress_at_rest(const Points<dim>            &points,
+                        const std::vector<double>    &weight_density,
+                        const dealii::Tensor<1, dim> &gravity,
+                        const Ground<dim>            &ground,
+                        MPI_Comm                      communicator);
+
   /// Set the K0 stress of the points of bodies with `K0`: soil at rest under
   /// its own weight in layers along the @p ground, with @p gravity g, m/s^2,
   /// normal n of the layers and M n_y the overburden() per area of the layer:
-  ///   ///   s_nn = g_n M n_y,  s_tt = s_zz = K0 s_nn,  s_tn = g_t M n_y,
+  ///   s_nn = g_n M n_y + u,  s_tt = s_zz = K0 s_nn,  s_tn = g_t M n_y,
+  /// effective with the excess pore pressure u of the points,
   /// in equilibrium in level ground and in an infinite slope; on the bottom of
   /// the mesh also on the grid, down to round-off. Returns notes for the log on
   /// stress above the strength. Throws ExcUser if a body is displaced or there

@@ -38,14 +38,14 @@ namespace talus
     list_state(StateList &list) const
     {
       surfaces.list_state(list);
-      for (const InputFile &table : strength_tables)
+      for (const InputFile &table : tables)
         table.list_state(list);
     }
 
     Constants              constants;
     std::filesystem::path  folder; ///< place of the parameter file
     Surfaces<dim>          surfaces;
-    std::vector<InputFile> strength_tables; ///< tables of all materials
+    std::vector<InputFile> tables; ///< strengths and pressures in depth
   };
 } // namespace talus
 

@@ -7,6 +7,7 @@
 #include <talus/contact/contact.h>
 #include <talus/interaction/nodal_interactions.h>
 #include <talus/problem/bodies.h>
+#include <talus/problem/excess_pore_pressure.h>
 #include <talus/problem/inputs.h>
 #include <talus/problem/loading.h>
 #include <talus/problem/parameter_preview.h>
@@ -51,6 +52,14 @@ namespace talus
     {
       interactions.open_accounts(accounts);
       accounts.open_energy("gravity work", Accounts<dim>::EnergyKind::supplied);
+      if (pore_pressure.exists() || materials.are_undrained())
+        accounts.open_energy("pore pressure work",
+                             Accounts<dim>::EnergyKind::supplied);
+      if (materials.are_undrained())
+        accounts.open_stored_energy("water energy",
+                                    [this](const Points<dim> &points) {
+                                      return materials.water_energy(points);
+                                    });
     }
 
     /// Fill the bodies with points and set the initial state. Points are
@@ -179,6 +188,8 @@ namespace talus
 
   private:
     void
+    set_pore_pressure(State<dim> &state) const;
+    void
     look_at_geometry(const State<dim> &state);
     void
     find_mudline(const Grid<dim> &grid);
@@ -190,10 +201,11 @@ namespace talus
 
   public:
     // Parts of the problem, for direct use.
-    Materials<dim> materials;
-    Obstacles<dim> obstacles;
-    Loading<dim>   loading;
-    Trigger<dim>   trigger;
+    Materials<dim>          materials;
+    Obstacles<dim>          obstacles;
+    Loading<dim>            loading;
+    Trigger<dim>            trigger;
+    ExcessPorePressure<dim> pore_pressure;
 
     /// All interactions at the nodes; the references below lead to members of
     /// the list that are used directly.

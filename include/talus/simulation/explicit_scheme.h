@@ -97,6 +97,8 @@ namespace talus
     void
     grid_to_points();
     void
+    change_pore_pressure();
+    void
     reduce_edges(const Batch &batch);
     void
     split();

@@ -48,9 +48,9 @@ namespace talus
     // Precondition of all functions below: the workspace belongs to the batch.
 
     /// First half of the B-bar pair: store for each point the shift
-    /// mean(q) - q, Pa, with q = tr_dim(sigma)/dim and the mean over the points
-    /// of the cell, of all bodies that use B-bar. The shift is zero for other
-    /// bodies.
+    /// mean(q - u) - q, Pa, with q = tr_dim(sigma)/dim, the excess pore
+    /// pressure u, and the mean over the points of the cell, of all bodies that
+    /// use B-bar. The shift is -u for other bodies.
     void
     apply_bbar_to_stress(const Points<dim>  &points,
                          StepWorkspace<dim> &workspace,
@@ -131,6 +131,14 @@ namespace talus
                         const Batch        &batch,
                         const Quantity     &quantity,
                         const Add          &add) const;
+
+    template <typename Pressure>
+    void
+    set_shift(const Points<dim>  &points,
+              StepWorkspace<dim> &workspace,
+              const Batch        &batch,
+              double             *shift,
+              const Pressure     &pressure) const;
 
     /// Declares 'Splitting/Shear', which chooses boxes as well as splits.
     struct Shear : dealii::ParameterAcceptor

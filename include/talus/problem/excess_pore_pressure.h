@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_problem_excess_pore_pressure_h
+#define talus_problem_excess_pore_pressure_h
+
+#include <talus/geometry/surface.h>
+#include <talus/points/points.h>
+#include <talus/problem/inputs.h>
+#include <talus/problem/mudline.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// Excess pore pressure u, Pa, given in place and time: the pressure of the
+  /// pore water in excess of the pressure of still water. The soil carries u
+  /// along: u belongs to the initial place of the soil, as the strength does,
+  ///   u(X, t) = u_0(X) + g(t) (u_1(X) - u_0(X)),
+  /// where g grows from 0 to 1 as half a cosine. Water flows as needed: the
+  /// soil is drained. Causes are gas from dissociating hydrate, sediment that
+  /// came too fast for its water to leave, or the residual of an earthquake.
+  /// The pressure is a function of time alone: a resumed run continues
+  /// unchanged.
+  template <int dim>
+  class ExcessPorePressure : public dealii::ParameterAcceptor
+  {
+  public:
+    ExcessPorePressure();
+
+    /// Whether any soil has an excess pore pressure.
+    bool
+    exists() const
+    {
+      return !initial_.empty() || !final_.empty();
+    }
+
+    /// Call after parsing. Throws ExcUser if the parameters contradict each
+    /// other or the bodies; @p end_time of the run, s.
+    void
+    check(const std::vector<std::string> &names_of_bodies, double end_time);
+
+    /// Declare the columns, if any.
+    void
+    add_columns(Points<dim> &points);
+
+    /// Return the tables of the parameters.
+    std::vector<InputFile>
+    tables(const std::filesystem::path &folder) const;
+
+    /// Set u at the start and the change to come, from the initial places of
+    /// the points.
+    /// @param overburden effective stress at rest of each point without u,
+    ///   across the layers, Pa, compression positive
+    /// Throws ExcUser where u would be more than @p overburden: the soil would
+    /// float. Collective.
+    void
+    set(Points<dim>               &points,
+        const std::vector<double> &overburden,
+        const Inputs<dim>         &inputs,
+        const Mudline<dim>        &mudline,
+        MPI_Comm                   communicator) const;
+
+    /// Whether u changes from time @p before to time @p now, s.
+    bool
+    changes(const double before, const double now) const
+    {
+      return !final_.empty() && progress(before) != progress(now);
+    }
+
+    /// Add what u changes from time @p before to time @p now, s; see changes().
+    void
+    update(Points<dim> &points, double before, double now) const;
+
+    /// Time after which u is constant, s.
+    double
+    end_time() const
+    {
+      return final_.empty() ? 0. : start_time_ + duration_;
+    }
+
+    /// Return a sentence for the log, empty without excess pore pressure.
+    std::string
+    note() const;
+
+  private:
+    double
+    progress(double t) const;
+
+    std::string              initial_, final_;
+    double                   start_time_ = 0.;
+    double                   duration_   = 0.;
+    std::vector<std::string> names_of_bodies_;
+
+    std::vector<bool> has_pressure_; ///< by body
+    unsigned int      change_ = dealii::numbers::invalid_unsigned_int;
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/contact/nodal_pore_pressure.h>
+#include <talus/points/points_kernel.h>
+
+#include <algorithm>
+#include <array>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  void
+  NodalPorePressure<dim>::prepare(const Grid<dim> &grid)
+  {
+    sums_.clear();
+    exchange_.prepare(grid, width);
+  }
+
+
+
+  // Hanging nodes give their sums to their masters, as nodal masses do.
+  template <int dim>
+  void
+  NodalPorePressure<dim>::find(const State<dim>                 &state,
+                               const std::vector<unsigned char> &is_needed)
+  {
+    const Grid<dim> &grid = state.grid;
+    sums_.assign(std::size_t(width) * grid.n_nodes(), 0.);
+    const Points<dim> &points = state.points;
+    points.for_each_cell(points.all(), [&](const Batch &cell) {
+      const unsigned int c     = points.segments(cell)[0].cell;
+      const Cell<dim>   &here  = grid.cells()[c];
+      const auto         needs = [&](const unsigned int node) {
+        return is_needed[node] != 0;
+      };
+      if (!here.uniform ||
+          std::any_of(here.patch.begin(), here.patch.end(), needs))
+        add_cell(state, c, cell.begin, cell.end);
+    });
+    for (const auto &hanging : grid.hanging_nodes())
+      for (unsigned int k = 0; k < width; ++k)
+        for (const auto &[master, weight] : hanging.masters)
+          sums_[width * master + k] += weight * sums_[width * hanging.node + k];
+    exchange_.add_to_owners(sums_.data());
+    exchange_.copy_to_ghosts(sums_.data());
+  }
+
+
+
+  template <int dim>
+  void
+  NodalPorePressure<dim>::add_cell(const State<dim>  &state,
+                                   const unsigned int cell,
+                                   const unsigned int begin,
+                                   const unsigned int end)
+  {
+    const Points<dim>  &points   = state.points;
+    const double *const pressure = points.data(points.pore_pressure());
+    for (unsigned int p = begin; p < end; ++p)
+      {
+        weights_of_point(
+          points, state.grid, state.constants.box_shape, cell, p, weights_);
+        const Point<dim> x      = load_place(points, points.position, p);
+        const double     volume = volume_of_points<dim, double>(points, p);
+        for (const NodeWeight<dim> &weight : weights_)
+          {
+            const double V   = weight.value * volume;
+            double      *sum = &sums_[std::size_t(width) * weight.node];
+            *sum++ += V;
+            *sum++ += V * pressure[p];
+            for (unsigned int i = 0; i < dim; ++i)
+              {
+                *sum++ += V * x[i];
+                *sum++ += V * pressure[p] * x[i];
+                for (unsigned int j = i; j < dim; ++j)
+                  *sum++ += V * x[i] * x[j];
+              }
+          }
+      }
+  }
+
+
+
+  // With s = x.n and means over the points, u(s) = <u> + (<u s> - <u> <s>)/(<s s>
+  // - <s> <s>) (s - <s>). A layer of one point has no slope, and neither have
+  // points on both sides of a periodic face. In a thin layer a pressure that
+  // grows from zero is at the base twice the mean: more would be noise.
+  template <int dim>
+  double
+  NodalPorePressure<dim>::at(const unsigned int   *node,
+                             const double         *share,
+                             const unsigned int    n,
+                             const Point<dim>     &x,
+                             const Tensor<1, dim> &normal,
+                             const double          cell_size) const
+  {
+    if (sums_.empty())
+      return 0.;
+    double V = 0, u = 0, s = 0, us = 0, ss = 0;
+    for (unsigned int v = 0; v < n; ++v)
+      {
+        const double *sum = &sums_[std::size_t(width) * node[v]];
+        V += share[v] * *sum++;
+        u += share[v] * *sum++;
+        for (unsigned int i = 0; i < dim; ++i)
+          {
+            s += share[v] * normal[i] * *sum++;
+            us += share[v] * normal[i] * *sum++;
+            for (unsigned int j = i; j < dim; ++j)
+              ss +=
+                (i == j ? 1. : 2.) * share[v] * normal[i] * normal[j] * *sum++;
+          }
+      }
+    if (V <= 0.)
+      return 0.;
+    const double mean = u / V, place = s / V;
+    const double variance = ss / V - place * place;
+    const double least    = 1e-3 * cell_size * cell_size;
+    if (variance < least || variance > 4. * cell_size * cell_size)
+      return mean;
+    const double slope    = (us / V - mean * place) / variance;
+    const double at_place = mean + slope * (Tensor<1, dim>(x) * normal - place);
+    return std::clamp(at_place,
+                      std::min(0., 2. * mean),
+                      std::max(0., 2. * mean));
+  }
+
+
+
+  template class NodalPorePressure<2>;
+  template class NodalPorePressure<3>;
+} // namespace talus
