@@ -82,10 +82,11 @@ namespace talus
 
 
 
-  // With s = x.n and means over the points, u(s) = <u> + (<u s> - <u> <s>)/(<s s>
-  // - <s> <s>) (s - <s>). A layer of one point has no slope, and neither have
-  // points on both sides of a periodic face. In a thin layer a pressure that
-  // grows from zero is at the base twice the mean: more would be noise.
+  // With s = x.n and means over the points, u(s) = <u> +
+  // (<u s> - <u> <s>)/(<s s> - <s> <s>) (s - <s>). A layer of one point has no
+  // slope, and neither have points on both sides of a periodic face. In a thin
+  // layer a pressure that grows from zero is at the base twice the mean: more
+  // would be noise.
   template <int dim>
   double
   NodalPorePressure<dim>::at(const unsigned int   *node,

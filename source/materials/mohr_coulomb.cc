@@ -83,8 +83,8 @@ namespace talus
 
 
 
-  // The criterion bounds t K(theta); at the Lode angle of the stress t may reach
-  // the bound over K.
+  // The criterion bounds t K(theta): at the Lode angle of the stress, t may
+  // reach the bound over K.
   template <int dim>
   double
   MohrCoulomb<dim>::shear_strength(const Points<dim> &points,

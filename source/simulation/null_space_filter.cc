@@ -14,8 +14,8 @@ namespace talus
     /// Replace the mean stress of each point by the cell mean and keep the
     /// deviator. The first half of B-bar computes the shift. With B-bar the
     /// nodes feel the mean only, so nodal forces are unchanged; without B-bar
-    /// nothing is replaced. With an excess pore pressure u the total stress gets
-    /// the mean, and the shift contains -u.
+    /// nothing is replaced. With an excess pore pressure u the total stress
+    /// gets the mean, and the shift contains -u.
     template <int dim>
     void
     filter_mean_stress(Points<dim>         &points,

@@ -257,8 +257,8 @@ namespace talus
   // In 2-D q is the mean stress in the plane and not the pressure: D' has only
   // the components in the plane, and with the pressure the pair would not be
   // adjoint. The shift is stored separately: only the forces need it, and the
-  // stress of the point stays unchanged. The excess pore pressure u is a part of
-  // the total stress that has the same value in all directions: the shift
+  // stress of the point stays unchanged. The excess pore pressure u is a part
+  // of the total stress that is the same in all directions: the shift
   // <q - u> - q takes it along.
   template <int dim>
   void

@@ -177,8 +177,9 @@ TEST(PorePressure, UndrainedColumnInEquilibrium)
 
 
 
-// Undrained elastic soil is elastic soil of the same shear modulus and nu_u: both
-// swing alike under a weight that comes at once, and the energy closes alike.
+// Undrained elastic soil is elastic soil of the same shear modulus and nu_u:
+// both swing alike under a weight that comes at once, and the energy closes
+// alike.
 TEST(PorePressure, UndrainedMovesAsOneMaterial)
 {
   const Overrides at_once = {"Damping/Local damping=0",
@@ -272,7 +273,8 @@ namespace
 
 
   /// Velocity of a rigid slab at the end of the ramp, m/s: from the time on at
-  /// which r_u = 1 - tan(10 degrees)/mu the acceleration is g mu cos (r_u - this).
+  /// which r_u = 1 - tan(10 degrees)/mu the acceleration is
+  /// g mu cos (r_u - this).
   double
   velocity_of_slab()
   {
@@ -412,7 +414,6 @@ TEST(PorePressure, FactorOfSafetyOfUndrainedSand)
         sand_slope(slope, friction) +
           Overrides{
             "Materials/sand/Poisson's ratio=0.3",
-
             "Materials/sand/Pore water/Drainage=undrained",
             "Materials/sand/Pore water/Undrained Poisson's ratio=0.4999"})
         .factor_of_safety(),
@@ -423,7 +424,9 @@ TEST(PorePressure, FactorOfSafetyOfUndrainedSand)
 
 
 // In the dynamics the slope moves by itself when r_u reaches
-// 1 - tan(10 degrees)/sin(30 degrees).
+// 1 - tan(10 degrees)/sin(30 degrees). Before, it creeps by up to 4 mm/s as the
+// stress turns; from then on 5 mm/s take half a second, in which r_u grows by
+// 0.6 %.
 TEST(PorePressure, SandBeginsToMove)
 {
   const Table table =
@@ -431,23 +434,25 @@ TEST(PorePressure, SandBeginsToMove)
            "pore-sand-moves",
            sand_slope(10., 30.) +
              Overrides{"Stages=dynamics",
-                       "End time=29",
-                       "Grid/Cell size=0.25",
+                       "End time=120",
+                       "Grid/Cell size=0.5",
                        "Grid/Upper corner=0.5,6",
                        "Bodies/layer/Upper corner=0.5,5",
-                       "Materials/sand/Young's modulus=5e6",
+                       "Materials/sand/Young's modulus=1e8",
+                       "Materials/sand/Poisson's ratio=0.3",
                        "Excess pore pressure/Final=0.8*overburden",
-                       "Excess pore pressure/Duration=40",
-                       "Output/Statistics interval=0.05"});
+                       "Excess pore pressure/Duration=160",
+                       "Output/Statistics interval=0.1"});
   const auto  &speed = table["centre velocity x [m/s]"];
   unsigned int begin = 0;
-  while (begin + 1 < speed.size() && speed[begin] < 1e-3)
+  while (begin + 1 < speed.size() && speed[begin] < 5e-3)
     ++begin;
-  Verification("Infinite slope of sand with rising pore pressure",
-               "prm/" + sand,
-               "1 - tan(10 degrees)/sin(30 degrees)")
-    .near("r_u when it moves at 1 mm/s",
-          0.4 * (1. - std::cos(M_PI * table["time [s]"][begin] / 40.)),
-          0.6473460386,
-          0.01);
+  Verification gates("Infinite slope of sand with rising pore pressure",
+                     "prm/" + sand,
+                     "1 - tan(10 degrees)/sin(30 degrees)");
+  gates.near("r_u when it moves at 5 mm/s",
+             0.4 * (1. - std::cos(M_PI * table["time [s]"][begin] / 160.)),
+             0.6473460386,
+             0.01);
+  EXPECT_GT(speed.back(), 0.1);
 }

@@ -22,8 +22,8 @@ namespace talus
 
 
   /// Friction of soil on a place of a surface. At rest the force is at most
-  /// proportional to the effective normal force, the normal force less the force
-  /// of excess pore pressure, up to a cap, which slip may reduce; a film of mud
+  /// proportional to the effective normal force, the normal force less that of
+  /// excess pore pressure, up to a cap, which slip may reduce; a film of mud
   /// adds a viscous force on soil that slips.
   struct CoulombLimit
   {

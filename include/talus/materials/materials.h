@@ -51,9 +51,9 @@ namespace talus
     notes(double cell_size) const;
 
     /// Declare the internal variables of all laws, the pore pressure of
-    /// undrained soil, and, if @p with_strength_factor, the column of factors of the strength. The
-    /// factor costs memory and time in each step, so request it only if it
-    /// changes.
+    /// undrained soil, and, if @p with_strength_factor, the column of factors
+    /// of the strength. The factor costs memory and time in each step, so
+    /// request it only if it changes.
     void
     add_columns(Points<dim> &points, bool with_strength_factor = false);
 
@@ -74,7 +74,8 @@ namespace talus
       return undrained_strength_;
     }
 
-    /// Energy of the water compressed in undrained soil, sum of V u^2/(2 K_f), J.
+    /// Energy of the water compressed in undrained soil, J: the sum of
+    /// V u^2/(2 K_f).
     double
     water_energy(const Points<dim> &points) const;
 
