@@ -66,11 +66,12 @@ namespace talus
   // The water has one stiffness in all soil of a material, also where the soil
   // is softer: liquefied soil would lose its incompressibility otherwise.
   template <int dim>
-  UndrainedWater<dim>
+  WaterResponse<dim>
   ElasticLaw<dim>::pore_water() const
   {
     return {pore_water_.stiffness(poisson_ratio_, moduli().bulk),
-            pore_water_.largest_suction()};
+            pore_water_.largest_suction(),
+            moduli().bulk};
   }
 
 

@@ -108,7 +108,7 @@ namespace talus
   Remark
   MohrCoulomb<dim>::note(const double /*cell_size*/) const
   {
-    const UndrainedWater<dim> water = this->pore_water();
+    const WaterResponse<dim> water = this->pore_water();
     if (water.stiffness == 0. || dilatancy_angle_ == 0. ||
         !dilation_strain_.empty() || std::isfinite(water.largest_suction))
       return "";

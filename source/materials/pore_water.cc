@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/materials/kinematics_kernel.h>
 #include <talus/materials/material_model.h>
 #include <talus/materials/pore_water.h>
 #include <talus/points/points_kernel.h>
@@ -82,30 +83,39 @@ namespace talus
 
   template <int dim>
   void
-  UndrainedWater<dim>::advance(Points<dim>              &points,
-                               const StepWorkspace<dim> &workspace,
-                               const unsigned int        begin,
-                               const unsigned int        end,
-                               const double              dt) const
+  WaterResponse<dim>::advance(Points<dim>              &points,
+                              const StepWorkspace<dim> &workspace,
+                              const unsigned int        begin,
+                              const unsigned int        end,
+                              const double              dt) const
   {
-    if (stiffness == 0.)
+    if (!points.have_pore_pressure())
       return;
-    const auto    work  = workspace.view(begin, end);
-    double *const u     = points.data(points.pore_pressure());
-    const double  least = -largest_suction;
-    for_each_simd(begin,
-                  end,
-                  [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
-                    using Number = decltype(number);
-                    auto H       = load_velocity_gradient<dim, Number>(work, p);
-                    for (unsigned int i = 0; i < dim; ++i)
-                      for (unsigned int j = 0; j < dim; ++j)
-                        H[i][j] *= dt;
-                    const Number J = 1. + determinant_increment<dim, Number>(H);
-                    store(u + p,
-                          max(Number(load<Number>(u + p) - stiffness * log(J)),
-                              Number(least)));
-                  });
+    const auto    columns = points.view();
+    const auto    work    = workspace.view(begin, end);
+    double *const u       = points.data(points.pore_pressure());
+    const double  least   = -largest_suction;
+    for_each_simd(
+      begin, end, [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+        using Number = decltype(number);
+        auto H       = load_velocity_gradient<dim, Number>(work, p);
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            H[i][j] *= dt;
+        const Number growth = log(1. + determinant_increment<dim, Number>(H));
+        const Number before = load<Number>(u + p);
+        if (stiffness > 0.)
+          store(u + p, max(Number(before - stiffness * growth), Number(least)));
+        else
+          {
+            const Number mean =
+              mean_normal(load_stress<dim, Number>(columns, p));
+            const Number loss     = soil_bulk * max(growth, Number(0.));
+            const Number lowered  = max(Number(before - loss), Number(0.));
+            const auto   is_loose = mean + 1e-3 * before > Number(0.);
+            store(u + p, select(is_loose, min(before, lowered), before));
+          }
+      });
   }
 
 
@@ -116,10 +126,10 @@ namespace talus
     /// of volume.
     template <int dim>
     std::pair<double, double>
-    pressure_after(const UndrainedWater<dim> &water,
-                   const double               u,
-                   const WorkspaceView<dim>  &workspace,
-                   const unsigned int         p)
+    pressure_after(const WaterResponse<dim> &water,
+                   const double              u,
+                   const WorkspaceView<dim> &workspace,
+                   const unsigned int        p)
     {
       double change = 0;
       for (unsigned int d = 0; d < dim; ++d)
@@ -135,11 +145,11 @@ namespace talus
 
   template <int dim>
   void
-  UndrainedWater<dim>::linearize(const Points<dim>        &points,
-                                 const StepWorkspace<dim> &workspace,
-                                 const unsigned int        begin,
-                                 const unsigned int        end,
-                                 StressTangent<dim>       *linearization) const
+  WaterResponse<dim>::linearize(const Points<dim>        &points,
+                                const StepWorkspace<dim> &workspace,
+                                const unsigned int        begin,
+                                const unsigned int        end,
+                                StressTangent<dim>       *linearization) const
   {
     const auto work = workspace.view(begin, end);
     for (unsigned int p = begin; p < end; ++p, ++linearization)
@@ -159,10 +169,10 @@ namespace talus
 
   template <int dim>
   void
-  UndrainedWater<dim>::commit_load_step(Points<dim>              &points,
-                                        const StepWorkspace<dim> &workspace,
-                                        const unsigned int        begin,
-                                        const unsigned int        end) const
+  WaterResponse<dim>::commit_load_step(Points<dim>              &points,
+                                       const StepWorkspace<dim> &workspace,
+                                       const unsigned int        begin,
+                                       const unsigned int        end) const
   {
     if (stiffness == 0.)
       return;
@@ -174,6 +184,6 @@ namespace talus
 
 
 
-  template struct UndrainedWater<2>;
-  template struct UndrainedWater<3>;
+  template struct WaterResponse<2>;
+  template struct WaterResponse<3>;
 } // namespace talus

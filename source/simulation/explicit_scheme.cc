@@ -91,7 +91,7 @@ namespace talus
         [&](const MaterialModel<dim> &model,
             const unsigned int        begin,
             const unsigned int        end) {
-          const UndrainedWater<dim> water = model.pore_water();
+          const WaterResponse<dim> water = model.pore_water();
           for (unsigned int p = begin; p < end; ++p)
             if (water.stiffness == 0. || u[p] <= -water.largest_suction)
               {

@@ -36,7 +36,7 @@ namespace talus
       return poisson_ratio_ > 0.4 || pore_water_.is_undrained();
     }
 
-    UndrainedWater<dim>
+    WaterResponse<dim>
     pore_water() const override;
 
   protected:

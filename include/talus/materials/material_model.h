@@ -213,10 +213,10 @@ namespace talus
     is_nearly_incompressible() const = 0;
 
     /// Return the pore water; without stiffness if the soil is drained.
-    virtual UndrainedWater<dim>
+    virtual WaterResponse<dim>
     pore_water() const
     {
-      return {0., 0.};
+      return {0., 0., 0.};
     }
 
     /// Return whether the derivatives of linearize() are symmetric.

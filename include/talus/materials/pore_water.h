@@ -64,13 +64,17 @@ namespace talus
 
 
 
-  /// Water in the pores of undrained points. @p stiffness K_f, Pa; below
-  /// -@p largest_suction, Pa, the pressure stays and the volume is free.
+  /// How the excess pore pressure u of points answers to their volume.
+  /// Undrained: du = -K_f d(ln J); below -@p largest_suction, Pa, the pressure
+  /// stays and the volume is free. Drained: u is given, but where no effective
+  /// stress is left a pressure above the total stress would blow the soil up:
+  /// there expansion takes pressure away, du = -K d(ln J).
   template <int dim>
-  struct UndrainedWater
+  struct WaterResponse
   {
-    double stiffness;
+    double stiffness; ///< K_f, Pa; 0: drained
     double largest_suction;
+    double soil_bulk; ///< K, Pa
 
     /// Advance the excess pore pressure of the points [begin, end) over a step
     /// of @p dt seconds with the velocity gradient in the workspace.
