@@ -3,12 +3,9 @@
 #include <talus/problem/excess_pore_pressure.h>
 #include <talus/problem/quantity_in_depth.h>
 
-#include <deal.II/base/numbers.h>
-
 #include <boost/algorithm/string/join.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <iomanip>
 
 namespace talus
@@ -41,12 +38,12 @@ namespace talus
                   "Excess pore pressure in the end, given as 'Initial' [Pa]. "
                   "Empty: no change.");
     add_parameter("Start time",
-                  start_time_,
+                  ramp_.start_time,
                   "Time at which the pressure begins to change [s].",
                   this->prm,
                   Patterns::Double(0.));
     add_parameter("Duration",
-                  duration_,
+                  ramp_.duration,
                   "Time over which the pressure changes from 'Initial' to "
                   "'Final', smoothly by half a cosine [s]; 0: at once, in the "
                   "step after the start time.",
@@ -69,13 +66,14 @@ namespace talus
                 ExcUser("'Excess pore pressure/Bodies' is given, but neither "
                         "'Initial' nor 'Final' there: no soil has an excess "
                         "pressure. Give one of the two or remove the entry."));
-    AssertThrow(!final_.empty() || (start_time_ == 0. && duration_ == 0.),
+    AssertThrow(!final_.empty() ||
+                  (ramp_.start_time == 0. && ramp_.duration == 0.),
                 ExcUser("'Excess pore pressure/Start time' or 'Duration' is "
                         "given, but 'Final' is empty: the pressure does not "
                         "change. Give 'Final' or remove the times."));
-    AssertThrow(final_.empty() || start_time_ < end_time,
+    AssertThrow(final_.empty() || ramp_.start_time < end_time,
                 ExcUser(text("'Excess pore pressure/Start time' is ",
-                             start_time_,
+                             ramp_.start_time,
                              " s, but the run ends at ",
                              end_time,
                              " s, before the pressure changes. Give an earlier "
@@ -207,27 +205,13 @@ namespace talus
 
 
 
-  /// 0 before the start, 1 after the end, half a cosine in between.
-  template <int dim>
-  double
-  ExcessPorePressure<dim>::progress(const double t) const
-  {
-    if (t <= start_time_)
-      return 0.;
-    if (t >= start_time_ + duration_)
-      return 1.;
-    return 0.5 * (1. - std::cos(numbers::PI * (t - start_time_) / duration_));
-  }
-
-
-
   template <int dim>
   void
   ExcessPorePressure<dim>::update(Points<dim> &points,
                                   const double before,
                                   const double now) const
   {
-    const double        grown  = progress(now) - progress(before);
+    const double        grown  = ramp_.progress(now) - ramp_.progress(before);
     const double *const change = points.data(change_);
     double *const       u      = points.data(points.pore_pressure());
     for (unsigned int p = 0; p < points.size(); ++p)
@@ -243,9 +227,9 @@ namespace talus
     if (final_.empty())
       return "";
     return text("From t = ",
-                start_time_,
+                ramp_.start_time,
                 " s to ",
-                start_time_ + duration_,
+                ramp_.end_time(),
                 " s the excess pore pressure changes to '",
                 final_,
                 "' Pa; static stages see the initial pressure.");

@@ -3,12 +3,9 @@
 #include <talus/geometry/place_expression.h>
 #include <talus/problem/trigger.h>
 
-#include <deal.II/base/numbers.h>
-
 #include <boost/algorithm/string/join.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace talus
 {
@@ -25,12 +22,12 @@ namespace talus
       add_parameter(name, value, sentence, this->prm, Patterns::Double(0., 1.));
     };
     add_parameter("Start time",
-                  start_time_,
+                  ramp_.start_time,
                   "Time at which the strength begins to fall [s].",
                   this->prm,
                   Patterns::Double(0.));
     add_parameter("Duration",
-                  duration_,
+                  ramp_.duration,
                   "Time over which the strength falls, smoothly by half a "
                   "cosine [s]; 0: at once, in the step after the start time.",
                   this->prm,
@@ -79,16 +76,16 @@ namespace talus
                       const double                    end_time)
   {
     const bool is_on = changes_strength() || seabed_fraction_ != 1.;
-    AssertThrow(is_on || (start_time_ == 0. && duration_ == 0. &&
+    AssertThrow(is_on || (ramp_.start_time == 0. && ramp_.duration == 0. &&
                           names_of_bodies_.empty() && region_.empty() &&
                           seabed_region_.empty()),
                 ExcUser("The section Trigger has entries, but nothing would "
                         "become weaker: set 'Trigger/Strength fraction' or "
                         "'Trigger/Seabed shear stress fraction' to less than "
                         "1, or remove the section."));
-    AssertThrow(!is_on || start_time_ < end_time,
+    AssertThrow(!is_on || ramp_.start_time < end_time,
                 ExcUser(text("'Trigger/Start time' is ",
-                             start_time_,
+                             ramp_.start_time,
                              " s, but the run ends at ",
                              end_time,
                              " s, before anything would happen. Give an "
@@ -242,21 +239,6 @@ namespace talus
 
 
 
-  /// 0 before the start, 1 after the end, half a cosine in between. Without
-  /// duration, a jump in the first step that ends after the start time.
-  template <int dim>
-  double
-  Trigger<dim>::progress(const double t) const
-  {
-    if (t <= start_time_)
-      return 0.;
-    if (t >= start_time_ + duration_)
-      return 1.;
-    return 0.5 * (1. - std::cos(numbers::PI * (t - start_time_) / duration_));
-  }
-
-
-
   /// The factor at time @p now, the end of the step, s. Skipped while the
   /// factor is constant, nearly always: the loop over the points would cost
   /// time in each step. The factor is assigned, not multiplied, to avoid drift.
@@ -267,10 +249,10 @@ namespace talus
                        const double       before,
                        const double       now) const
   {
-    if (!changes_strength() || progress(before) == progress(now))
+    if (!changes_strength() || ramp_.progress(before) == ramp_.progress(now))
       return;
     // f = 1 - (1 - f_end) progress at the chosen points, 1 elsewhere.
-    const double  lost     = progress(now) * (1. - strength_fraction_);
+    const double  lost     = ramp_.progress(now) * (1. - strength_fraction_);
     const double *weakened = points.data(weakened_);
     double       *factor   = points.data(strength_factor);
     for (unsigned int p = 0; p < points.size(); ++p)
@@ -301,10 +283,9 @@ namespace talus
                                           : " in the region of the section "
                                             "Trigger");
     const std::string when =
-      duration_ > 0.
-        ? text(
-            "From t = ", start_time_, " s to ", start_time_ + duration_, " s ")
-        : text("At t = ", start_time_, " s ");
+      ramp_.duration > 0.
+        ? text("From t = ", ramp_.start_time, " s to ", ramp_.end_time(), " s ")
+        : text("At t = ", ramp_.start_time, " s ");
     return when + what + ".";
   }
 

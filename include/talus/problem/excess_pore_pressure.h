@@ -2,6 +2,7 @@
 #ifndef talus_problem_excess_pore_pressure_h
 #define talus_problem_excess_pore_pressure_h
 
+#include <talus/base/cosine_ramp.h>
 #include <talus/geometry/surface.h>
 #include <talus/points/points.h>
 #include <talus/problem/inputs.h>
@@ -67,7 +68,7 @@ namespace talus
     bool
     changes(const double before, const double now) const
     {
-      return !final_.empty() && progress(before) != progress(now);
+      return !final_.empty() && ramp_.progress(before) != ramp_.progress(now);
     }
 
     /// Add what u changes from time @p before to time @p now, s; see changes().
@@ -78,7 +79,7 @@ namespace talus
     double
     end_time() const
     {
-      return final_.empty() ? 0. : start_time_ + duration_;
+      return final_.empty() ? 0. : ramp_.end_time();
     }
 
     /// Return a sentence for the log, empty without excess pore pressure.
@@ -86,12 +87,8 @@ namespace talus
     note() const;
 
   private:
-    double
-    progress(double t) const;
-
     std::string              initial_, final_;
-    double                   start_time_ = 0.;
-    double                   duration_   = 0.;
+    CosineRamp               ramp_;
     std::vector<std::string> names_of_bodies_;
 
     std::vector<bool> has_pressure_; ///< by body

@@ -2,6 +2,7 @@
 #ifndef talus_problem_trigger_h
 #define talus_problem_trigger_h
 
+#include <talus/base/cosine_ramp.h>
 #include <talus/base/expression.h>
 #include <talus/boundaries/bed_slip.h>
 #include <talus/geometry/surface.h>
@@ -83,7 +84,7 @@ namespace talus
     double
     seabed_factor(const double t) const
     {
-      return 1. - progress(t) * (1. - seabed_fraction_);
+      return 1. - ramp_.progress(t) * (1. - seabed_fraction_);
     }
 
     /// Time at which strengths have reached the final values, s; 0 without a
@@ -91,9 +92,8 @@ namespace talus
     double
     end_time() const
     {
-      return changes_strength() || seabed_fraction_ != 1.
-               ? start_time_ + duration_
-               : 0.;
+      return changes_strength() || seabed_fraction_ != 1. ? ramp_.end_time()
+                                                          : 0.;
     }
 
     /// Return a sentence on the trigger for the log, or nothing.
@@ -101,15 +101,11 @@ namespace talus
     note() const;
 
   private:
-    /// Progress of the loss of strength at time @p t, s: from 0 to 1 [-].
-    double
-    progress(double t) const;
     void
     check_bodies(const std::vector<std::string> &names_of_bodies,
                  const Materials<dim>           &materials);
 
-    double                   start_time_        = 0.;
-    double                   duration_          = 0.;
+    CosineRamp               ramp_;
     double                   strength_fraction_ = 1.;
     double                   seabed_fraction_   = 1.;
     std::vector<std::string> names_of_bodies_;
