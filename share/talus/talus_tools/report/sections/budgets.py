@@ -23,6 +23,10 @@ ENERGIES = {
                          "motion; negative where they drive the soil."),
     "damping work [J]": ("work of damping", "Used up by numerical damping; none unless asked "
                          "for."),
+    "pore pressure work [J]": ("work of the pore pressure", "Given to soil that swells, by pore "
+                               "water whose pressure is given."),
+    "water energy [J]": ("energy of the pore water", "Stored by water that undrained soil "
+                         "compresses."),
     "outflow energy [J]": ("energy of outflow", "Taken along by soil that left the mesh."),
     "inflow energy [J]": ("energy of inflow", "Brought by soil that entered the mesh."),
     "energy remainder [J]": ("remainder", "What the sum of all others misses: an error of the "
