@@ -130,8 +130,7 @@ namespace talus
                            inputs_,
                            state.grid.domain_before_growth(),
                            state.communicator());
-    if (pore_pressure.exists())
-      set_pore_pressure(state);
+    set_pore_pressure(state);
     auto on_stress =
       set_geostatic_stress(points,
                            bodies_.list(),
@@ -162,6 +161,8 @@ namespace talus
   void
   Problem<dim>::set_pore_pressure(State<dim> &state) const
   {
+    if (!pore_pressure.exists())
+      return;
     std::vector<double> density;
     for (unsigned int b = 0; b < bodies_.size(); ++b)
       density.push_back(materials.of_body(b).submerged_density());

@@ -20,11 +20,10 @@ namespace talus
   /// pore water in excess of the pressure of still water. The soil carries u
   /// along: u belongs to the initial place of the soil, as the strength does,
   ///   u(X, t) = u_0(X) + g(t) (u_1(X) - u_0(X)),
-  /// where g grows from 0 to 1 as half a cosine. Water flows as needed: the
-  /// soil is drained. Causes are gas from dissociating hydrate, sediment that
-  /// came too fast for its water to leave, or the residual of an earthquake.
-  /// The pressure is a function of time alone: a resumed run continues
-  /// unchanged.
+  /// where g grows from 0 to 1 as half a cosine. Only the increments of u are
+  /// added: what the volume of the soil changes, see WaterResponse, stays.
+  /// Causes are gas from dissociating hydrate, sediment that came too fast for
+  /// its water to leave, or the residual of an earthquake.
   template <int dim>
   class ExcessPorePressure : public dealii::ParameterAcceptor
   {
