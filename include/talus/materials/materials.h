@@ -123,6 +123,19 @@ namespace talus
       return joined(result);
     }
 
+    /// Tell all laws the largest mean effective stress of their points, Pa, at
+    /// the start. Collective.
+    void
+    use_initial_pressure(const Points<dim> &points, MPI_Comm communicator);
+
+    /// See MaterialModel::list_state().
+    void
+    list_state(StateList &list)
+    {
+      for (const auto &model : models_)
+        model->list_state(list);
+    }
+
     /// Tell all laws the largest edge of cells with soil, m.
     void
     use_cell_size(const double largest)

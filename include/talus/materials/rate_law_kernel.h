@@ -223,6 +223,32 @@ namespace talus
 
 
 
+  /// Whether moduli are those of the law times pressure() of the flow rule, a
+  /// function of the mean stress at the start of the step.
+  template <typename FlowRule>
+  constexpr bool is_stiffened_by_pressure = false;
+
+
+
+  /// Strength and stiffness of point(s) @p p with the stress @p sigma, Pa.
+  template <int dim, typename Number, typename FlowRule>
+  TALUS_ALWAYS_INLINE PointStrength<Number>
+                      strength_at(const StrengthOfPoints    &strength_of_points,
+                                  const FlowRule            &flow_rule,
+                                  const unsigned int         p,
+                                  const Stress<dim, Number> &sigma)
+  {
+    PointStrength<Number> strength = strength_of_points(p, Number());
+    if constexpr (is_stiffened_by_pressure<FlowRule>)
+      {
+        strength.stiffness  = flow_rule.pressure(mean_normal(sigma));
+        strength.compliance = 1. / strength.stiffness;
+      }
+    return strength;
+  }
+
+
+
   /// Flow rule of elastic material.
   struct NoFlow
   {
@@ -302,13 +328,13 @@ namespace talus
                    const unsigned int                p,
                    RateLawTrial<dim, Number>        &trial)
   {
-    trial.strength   = step.strength(p, Number());
+    const auto sigma = load_stress<dim, Number>(step.points, p);
+    trial.strength =
+      strength_at<dim, Number>(step.strength, step.flow_rule, p, sigma);
     trial.moduli     = moduli_of_point(step.moduli, trial.strength);
     trial.compliance = 1. / step.moduli.mu * trial.strength.compliance;
     trial.stress =
-      elastic_trial<dim, Number>(load_stress<dim, Number>(step.points, p),
-                                 trial.strain,
-                                 trial.moduli);
+      elastic_trial<dim, Number>(sigma, trial.strain, trial.moduli);
   }
 
 
@@ -425,7 +451,7 @@ namespace talus
         soften(step, p, flow.increment, trial.strength);
         flow_plastically(step.points, p, trial, flow);
         if constexpr (is_iterative<FlowRule>)
-          if (!all(flow.increment >= 0.))
+          if (!all(softening<Number>(step, p) >= 0.))
             return false;
       }
     return all(trial.motion.volume_after > 0.);

@@ -4,6 +4,10 @@
 
 #include <talus/materials/strength_variation.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -63,7 +67,22 @@ namespace talus
   /// Smallest and largest undrained shear strength of some soil, Pa.
   struct StrengthRange
   {
-    double least, largest;
+    double least = std::numeric_limits<double>::infinity(), largest = 0.;
+
+    void
+    include(const double strength)
+    {
+      least   = std::min(least, strength);
+      largest = std::max(largest, strength);
+    }
+
+    /// Range of the soil of all ranks. Collective.
+    StrengthRange
+    over_ranks(const MPI_Comm communicator) const
+    {
+      return {dealii::Utilities::MPI::min(least, communicator),
+              dealii::Utilities::MPI::max(largest, communicator)};
+    }
   };
 } // namespace talus
 
