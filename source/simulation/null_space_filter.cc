@@ -15,20 +15,36 @@ namespace talus
     /// deviator. The first half of B-bar computes the shift. With B-bar the
     /// nodes feel the mean only, so nodal forces are unchanged; without B-bar
     /// nothing is replaced. With an excess pore pressure u the total stress
-    /// gets the mean, and the shift contains -u.
+    /// gets the mean, and the shift contains -u: what is hidden is the volume
+    /// of the points, which undrained water and soil answer by their stiffness.
     template <int dim>
     void
-    filter_mean_stress(Points<dim>         &points,
-                       StepWorkspace<dim>  &workspace,
-                       const Transfer<dim> &transfer)
+    filter_mean_stress(Points<dim>          &points,
+                       StepWorkspace<dim>   &workspace,
+                       const Transfer<dim>  &transfer,
+                       const Materials<dim> &materials)
     {
       points.for_each_batch([&](const Batch &batch) {
         workspace.reinit(batch.begin, batch.end);
         transfer.apply_bbar_to_stress(points, workspace, batch);
         double *const shift = workspace.mean_stress_shift();
         if (points.have_pore_pressure())
-          for (unsigned int p = batch.begin; p < batch.end; ++p)
-            shift[p - batch.begin] += points.data(points.pore_pressure())[p];
+          materials.for_each_material_range(
+            points,
+            batch,
+            [&](const MaterialModel<dim> &model,
+                const unsigned int        begin,
+                const unsigned int        end) {
+              const double  share = model.pore_water().share();
+              double *const u     = points.data(points.pore_pressure());
+              for (unsigned int p = begin; p < end; ++p)
+                {
+                  double      &change = shift[p - batch.begin];
+                  const double total  = change + u[p];
+                  u[p] -= share * total;
+                  change = (1. - share) * total;
+                }
+            });
         // Shift all three normal stresses, also in 2-D: the deviator must not
         // change.
         for (unsigned int d = 0; d < 3; ++d)
@@ -96,10 +112,11 @@ namespace talus
   void
   filter_null_space(State<dim>            &state,
                     const Transfer<dim>   &transfer,
+                    const Materials<dim>  &materials,
                     Boundaries<dim> *const boundaries)
   {
     Points<dim> &points = state.points;
-    filter_mean_stress(points, state.workspace, transfer);
+    filter_mean_stress(points, state.workspace, transfer, materials);
     const unsigned int                   n = points.size();
     std::array<std::vector<double>, dim> unseen, seen;
     for (unsigned int d = 0; d < dim; ++d)

@@ -115,12 +115,32 @@ namespace talus
     double plastic_rate;  ///< (1 + e_0)/(lambda - kappa) [-]
     double attraction;    ///< Pa
 
-    /// Mean effective stress and attraction, Pa.
+    /// Mean effective stress and attraction, Pa; positive also where a mean
+    /// over points has left none.
     template <typename Number>
     TALUS_ALWAYS_INLINE Number
     pressure(const Number &mean_stress) const
     {
-      return attraction - mean_stress;
+      return max(Number(attraction - mean_stress), Number(1e-3 * attraction));
+    }
+
+    /// Bulk modulus, Pa, over a step from the pressure @p start with the
+    /// volumetric strain @p volume [-], so that the pressure becomes p_0
+    /// exp(-a volume). Soil that expands to less than a hundredth of the
+    /// attraction parts, with a hundredth of the stiffness.
+    template <typename Strength, typename Number>
+    TALUS_ALWAYS_INLINE Number
+    bulk_modulus(const Strength &start, const Number &volume) const
+    {
+      const Number strain = elastic_rate * volume;
+      const Number least  = 0.01 * attraction;
+      const Number end    = max(Number(start * exp(-1. * strain)), least);
+      const Number small =
+        select(end > least, Number(start * (1. - 0.5 * strain)), Number(0.));
+      const Number secant = select(strain * strain < Number(1e-10),
+                                   small,
+                                   Number((start - end) / strain));
+      return elastic_rate * max(secant, Number(0.01 * start));
     }
 
     /// Sine of the friction angle times the strength @p factor.
@@ -145,10 +165,7 @@ namespace talus
         sqrt(0.5 * contract(s, s) + std::numeric_limits<double>::min());
       const Number share =
         mohr_coulomb_shear<dim, Number>(s, t, sine) / (t * sine);
-      // Hooke's law is linear in the change of volume. Soil that expands to
-      // less than a hundredth of the attraction parts.
-      const Number p = start * exp(pressure(trial.mean_after) / start - 1.);
-      return {max(p, Number(0.01 * attraction)),
+      return {pressure(trial.mean_after),
               Number(preconsolidation),
               share * t,
               2. * shear_modulus * start * share * share,
@@ -189,8 +206,7 @@ namespace talus
       const auto end = exact.at(select(yields, x, Number(0.)));
       return {select(yields, Number(1. - end.kept), Number(0.)),
               end.preconsolidation - preconsolidation,
-              (end.pressure - pressure(trial.mean_after)) *
-                strength.compliance * (1. / elastic_rate)};
+              (end.pressure - (attraction - trial.mean_after)) / trial.bulk};
     }
   };
 

@@ -151,7 +151,8 @@ namespace talus
         const auto before = load_stress<dim, double>(points, p);
         const auto strength =
           strength_at<dim, double>(strengths, rule, p, before);
-        const auto          moduli = moduli_of_point(moduli_of_law, strength);
+        const auto moduli =
+          moduli_of_step(moduli_of_law, rule, strength, strain.volumetric);
         Stress<dim, Number> sigma;
         std::copy(before.begin(), before.end(), sigma.begin());
 

@@ -90,6 +90,7 @@ namespace talus
   {
     Number              mean_before, mean_after;
     Stress<dim, Number> deviator_before, deviator_after;
+    Number              bulk; ///< bulk modulus of the step
   };
 
 
@@ -109,6 +110,7 @@ namespace talus
                                     const ModuliOf<Modulus>            &moduli)
   {
     StressStep<dim, Number> trial;
+    trial.bulk        = moduli.bulk;
     trial.mean_before = mean_normal(sigma);
     trial.mean_after  = trial.mean_before + moduli.bulk * strain.volumetric;
 
@@ -224,7 +226,8 @@ namespace talus
 
 
   /// Whether moduli are those of the law times pressure() of the flow rule, a
-  /// function of the mean stress at the start of the step.
+  /// function of the mean stress at the start of the step, and the bulk modulus
+  /// over a step is bulk_modulus() of the rule.
   template <typename FlowRule>
   constexpr bool is_stiffened_by_pressure = false;
 
@@ -245,6 +248,27 @@ namespace talus
         strength.compliance = 1. / strength.stiffness;
       }
     return strength;
+  }
+
+
+
+  /// Elastic moduli of point(s), Pa, in a step of the volumetric strain
+  /// @p volume [-].
+  template <typename FlowRule, typename Strength, typename Number>
+  TALUS_ALWAYS_INLINE auto
+  moduli_of_step(const Moduli                  &moduli_of_law,
+                 const FlowRule                &flow_rule,
+                 const PointStrength<Strength> &strength,
+                 const Number                  &volume)
+  {
+    const auto moduli = moduli_of_point(moduli_of_law, strength);
+    if constexpr (is_stiffened_by_pressure<FlowRule>)
+      return ModuliOf<Number>{moduli.lambda,
+                              moduli.mu,
+                              flow_rule.bulk_modulus(strength.stiffness,
+                                                     volume)};
+    else
+      return moduli;
   }
 
 
@@ -331,7 +355,10 @@ namespace talus
     const auto sigma = load_stress<dim, Number>(step.points, p);
     trial.strength =
       strength_at<dim, Number>(step.strength, step.flow_rule, p, sigma);
-    trial.moduli     = moduli_of_point(step.moduli, trial.strength);
+    trial.moduli     = moduli_of_step(step.moduli,
+                                  step.flow_rule,
+                                  trial.strength,
+                                  trial.strain.volumetric);
     trial.compliance = 1. / step.moduli.mu * trial.strength.compliance;
     trial.stress =
       elastic_trial<dim, Number>(sigma, trial.strain, trial.moduli);

@@ -3,6 +3,7 @@
 #define talus_simulation_null_space_filter_h
 
 #include <talus/boundaries/boundaries.h>
+#include <talus/materials/materials.h>
 #include <talus/state/state.h>
 #include <talus/transfer/transfer.h>
 
@@ -34,9 +35,10 @@ namespace talus
   /// The order of XPIC is a parameter of the scheme. Collective.
   template <int dim>
   void
-  filter_null_space(State<dim>          &state,
-                    const Transfer<dim> &transfer,
-                    Boundaries<dim>     *boundaries = nullptr);
+  filter_null_space(State<dim>           &state,
+                    const Transfer<dim>  &transfer,
+                    const Materials<dim> &materials,
+                    Boundaries<dim>      *boundaries = nullptr);
 } // namespace talus
 
 #endif

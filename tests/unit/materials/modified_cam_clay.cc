@@ -70,7 +70,9 @@ namespace cam_clay_test
       const double          p = pressure();
       const Number          m = mean_normal(strain);
       StressStep<2, Number> trial;
-      trial.mean_after = 3. * m * (p * flow_rule.elastic_rate) - p;
+      const Number          bulk = flow_rule.bulk_modulus(p, Number(3. * m));
+      trial.bulk                 = bulk;
+      trial.mean_after           = 3. * m * bulk - p;
       for (unsigned int i = 0; i < 4; ++i)
         trial.deviator_after[i] =
           sigma[i] + (i < 3 ? p : 0.) +
@@ -81,7 +83,7 @@ namespace cam_clay_test
                   PointStrength<double>{0., 1., p, 1. / p, 1.});
       if (flow != nullptr)
         *flow = found;
-      return returned(trial, Number(p * flow_rule.elastic_rate), found);
+      return returned(trial, bulk, found);
     }
 
     void

@@ -75,7 +75,7 @@ namespace
         momentum -= m * core.get(core.points.velocity, p);
         scale += m * core.get(core.points.velocity, p).norm();
       }
-    filter_null_space(core, core.transfer);
+    filter_null_space(core, core.transfer, Materials<dim>({}));
     double most_taken = 0.;
     for (unsigned int p = 0; p < n; ++p)
       {
@@ -109,7 +109,10 @@ namespace
       return sum;
     };
     const Tensor<1, dim> before = momentum();
-    filter_null_space(core, core.transfer, &core.boundaries);
+    filter_null_space(core,
+                      core.transfer,
+                      Materials<dim>({}),
+                      &core.boundaries);
     const Tensor<1, dim> taken = core.accounts.impulse("wall impulse");
     EXPECT_GT(taken.norm(), 1e-3 * before.norm());
     EXPECT_LT((momentum() - before - taken).norm(), 1e-12 * before.norm());
@@ -134,7 +137,7 @@ namespace
     std::vector<Stress<dim, double>> old(n);
     for (unsigned int p = 0; p < n; ++p)
       old[p] = stress(p);
-    filter_null_space(core, core.transfer);
+    filter_null_space(core, core.transfer, Materials<dim>({}));
     double largest_change = 0.;
     for (unsigned int p = 0; p < n; ++p)
       {
