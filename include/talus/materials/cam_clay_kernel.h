@@ -115,32 +115,27 @@ namespace talus
     double plastic_rate;  ///< (1 + e_0)/(lambda - kappa) [-]
     double attraction;    ///< Pa
 
-    /// Mean effective stress and attraction, Pa; positive also where a mean
-    /// over points has left none.
+    /// Mean effective stress and attraction, Pa. Positive also in soil torn
+    /// apart, and where a mean over points has left none.
     template <typename Number>
     TALUS_ALWAYS_INLINE Number
     pressure(const Number &mean_stress) const
     {
-      return max(Number(attraction - mean_stress), Number(1e-3 * attraction));
+      return max(Number(attraction - mean_stress), Number(1e-6 * attraction));
     }
 
     /// Bulk modulus, Pa, over a step from the pressure @p start with the
     /// volumetric strain @p volume [-], so that the pressure becomes p_0
-    /// exp(-a volume). Soil that expands to less than a hundredth of the
-    /// attraction parts, with a hundredth of the stiffness.
+    /// exp(-a volume).
     template <typename Strength, typename Number>
     TALUS_ALWAYS_INLINE Number
     bulk_modulus(const Strength &start, const Number &volume) const
     {
       const Number strain = elastic_rate * volume;
-      const Number least  = 0.01 * attraction;
-      const Number end    = max(Number(start * exp(-1. * strain)), least);
-      const Number small =
-        select(end > least, Number(start * (1. - 0.5 * strain)), Number(0.));
-      const Number secant = select(strain * strain < Number(1e-10),
-                                   small,
-                                   Number((start - end) / strain));
-      return elastic_rate * max(secant, Number(0.01 * start));
+      return elastic_rate * start *
+             select(strain * strain < Number(1e-10),
+                    Number(1. - 0.5 * strain),
+                    Number((1. - exp(-1. * strain)) / strain));
     }
 
     /// Sine of the friction angle times the strength @p factor.

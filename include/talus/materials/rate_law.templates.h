@@ -148,9 +148,10 @@ namespace talus
       {
         const auto strain =
           small_strain_increment(load_independent_gradient(work, p));
-        const auto before = load_stress<dim, double>(points, p);
-        const auto strength =
-          strength_at<dim, double>(strengths, rule, p, before);
+        auto before   = load_stress<dim, double>(points, p);
+        auto strength = strengths(p, double());
+        if constexpr (is_stiffened_by_pressure<FlowRule>)
+          stiffen<dim>(rule, softening(points, p), strength, before);
         const auto moduli =
           moduli_of_step(moduli_of_law, rule, strength, strain.volumetric);
         Stress<dim, Number> sigma;

@@ -233,21 +233,22 @@ namespace talus
 
 
 
-  /// Strength and stiffness of point(s) @p p with the stress @p sigma, Pa.
-  template <int dim, typename Number, typename FlowRule>
-  TALUS_ALWAYS_INLINE PointStrength<Number>
-                      strength_at(const StrengthOfPoints    &strength_of_points,
-                                  const FlowRule            &flow_rule,
-                                  const unsigned int         p,
-                                  const Stress<dim, Number> &sigma)
+  /// Set the stiffness in @p strength from the stress @p sigma, Pa, at the start
+  /// of a step. A mean stress that the law does not allow, left by a mean over
+  /// points, becomes one that it does.
+  template <int dim, typename FlowRule, typename Number>
+  TALUS_ALWAYS_INLINE void
+  stiffen(const FlowRule        &flow_rule,
+          const Number          &plastic_variable,
+          PointStrength<Number> &strength,
+          Stress<dim, Number>   &sigma)
   {
-    PointStrength<Number> strength = strength_of_points(p, Number());
-    if constexpr (is_stiffened_by_pressure<FlowRule>)
-      {
-        strength.stiffness  = flow_rule.pressure(mean_normal(sigma));
-        strength.compliance = 1. / strength.stiffness;
-      }
-    return strength;
+    const Number mean   = mean_normal(sigma);
+    const auto   s      = add_mean(sigma, Number(-mean));
+    strength.stiffness  = max(flow_rule.pressure(mean),
+                             Number(0.5 * contract(s, s) / plastic_variable));
+    strength.compliance = 1. / strength.stiffness;
+    sigma = add_mean(s, Number(flow_rule.attraction - strength.stiffness));
   }
 
 
@@ -352,9 +353,13 @@ namespace talus
                    const unsigned int                p,
                    RateLawTrial<dim, Number>        &trial)
   {
-    const auto sigma = load_stress<dim, Number>(step.points, p);
-    trial.strength =
-      strength_at<dim, Number>(step.strength, step.flow_rule, p, sigma);
+    auto sigma     = load_stress<dim, Number>(step.points, p);
+    trial.strength = step.strength(p, Number());
+    if constexpr (is_stiffened_by_pressure<FlowRule>)
+      stiffen<dim>(step.flow_rule,
+                   softening<Number>(step, p),
+                   trial.strength,
+                   sigma);
     trial.moduli     = moduli_of_step(step.moduli,
                                   step.flow_rule,
                                   trial.strength,
