@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/contact/nodal_pore_pressure.h>
 #include <talus/points/points_kernel.h>
+#include <talus/transfer/weights_kernel.h>
 
 #include <algorithm>
 #include <array>
@@ -36,7 +37,7 @@ namespace talus
       };
       if (!here.uniform ||
           std::any_of(here.patch.begin(), here.patch.end(), needs))
-        add_cell(state, c, cell.begin, cell.end);
+        add_cell(state, is_needed, c, cell.begin, cell.end);
     });
     for (const auto &hanging : grid.hanging_nodes())
       for (unsigned int k = 0; k < width; ++k)
@@ -48,23 +49,58 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Weights of a box whose cell has a complete patch, without gradients.
+    template <int dim>
+    void
+    weights_in_patch(const Points<dim>            &points,
+                     const BoxShape               &shape,
+                     const Cell<dim>              &cell,
+                     const unsigned int            p,
+                     std::vector<NodeWeight<dim>> &weights)
+    {
+      std::array<std::array<double, 4>, dim> share;
+      for (unsigned int d = 0; d < dim; ++d)
+        share[d] = weights_along_axis(points, shape, cell, d, p);
+      weights.clear();
+      for (unsigned int k = 0; k < cell.patch.size(); ++k)
+        {
+          double value = 1.;
+          for (unsigned int d = 0; d < dim; ++d)
+            value *= share[d][(k >> (2 * d)) % 4];
+          if (value != 0)
+            weights.push_back({cell.patch[k], value, {}});
+        }
+    }
+  } // namespace
+
+
+
   template <int dim>
   void
-  NodalPorePressure<dim>::add_cell(const State<dim>  &state,
-                                   const unsigned int cell,
-                                   const unsigned int begin,
-                                   const unsigned int end)
+  NodalPorePressure<dim>::add_cell(const State<dim>                 &state,
+                                   const std::vector<unsigned char> &is_needed,
+                                   const unsigned int                cell,
+                                   const unsigned int                begin,
+                                   const unsigned int                end)
   {
     const Points<dim>  &points   = state.points;
+    const Cell<dim>    &here     = state.grid.cells()[cell];
+    const BoxShape     &shape    = state.constants.box_shape;
     const double *const pressure = points.data(points.pore_pressure());
     for (unsigned int p = begin; p < end; ++p)
       {
-        weights_of_point(
-          points, state.grid, state.constants.box_shape, cell, p, weights_);
+        if (here.uniform && shape.rule != BoxRule::convected_domain)
+          weights_in_patch(points, shape, here, p, weights_);
+        else
+          weights_of_point(points, state.grid, shape, cell, p, weights_);
         const Point<dim> x      = load_place(points, points.position, p);
         const double     volume = volume_of_points<dim, double>(points, p);
         for (const NodeWeight<dim> &weight : weights_)
           {
+            if (!is_needed[weight.node])
+              continue;
             const double V   = weight.value * volume;
             double      *sum = &sums_[std::size_t(width) * weight.node];
             *sum++ += V;
