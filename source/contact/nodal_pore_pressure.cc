@@ -49,34 +49,7 @@ namespace talus
 
 
 
-  namespace
-  {
-    /// Weights of a box whose cell has a complete patch, without gradients.
-    template <int dim>
-    void
-    weights_in_patch(const Points<dim>            &points,
-                     const BoxShape               &shape,
-                     const Cell<dim>              &cell,
-                     const unsigned int            p,
-                     std::vector<NodeWeight<dim>> &weights)
-    {
-      std::array<std::array<double, 4>, dim> share;
-      for (unsigned int d = 0; d < dim; ++d)
-        share[d] = weights_along_axis(points, shape, cell, d, p);
-      weights.clear();
-      for (unsigned int k = 0; k < cell.patch.size(); ++k)
-        {
-          double value = 1.;
-          for (unsigned int d = 0; d < dim; ++d)
-            value *= share[d][(k >> (2 * d)) % 4];
-          if (value != 0)
-            weights.push_back({cell.patch[k], value, {}});
-        }
-    }
-  } // namespace
-
-
-
+  // Near cells of one size the weights are products at the nodes of a patch.
   template <int dim>
   void
   NodalPorePressure<dim>::add_cell(const State<dim>                 &state,
@@ -89,30 +62,48 @@ namespace talus
     const Cell<dim>    &here     = state.grid.cells()[cell];
     const BoxShape     &shape    = state.constants.box_shape;
     const double *const pressure = points.data(points.pore_pressure());
+    const bool          has_patch =
+      here.uniform && shape.rule != BoxRule::convected_domain;
+    weights_.clear();
+    std::array<unsigned int, power(4, dim)> entry; // of the patch
+    for (unsigned int k = 0; k < entry.size() && has_patch; ++k)
+      if (is_needed[here.patch[k]])
+        {
+          entry[weights_.size()] = k;
+          weights_.push_back({here.patch[k], 0., {}});
+        }
     for (unsigned int p = begin; p < end; ++p)
       {
-        if (here.uniform && shape.rule != BoxRule::convected_domain)
-          weights_in_patch(points, shape, here, p, weights_);
-        else
-          weights_of_point(points, state.grid, shape, cell, p, weights_);
-        const Point<dim> x      = load_place(points, points.position, p);
-        const double     volume = volume_of_points<dim, double>(points, p);
-        for (const NodeWeight<dim> &weight : weights_)
+        if (has_patch)
           {
-            if (!is_needed[weight.node])
-              continue;
-            const double V   = weight.value * volume;
-            double      *sum = &sums_[std::size_t(width) * weight.node];
-            *sum++ += V;
-            *sum++ += V * pressure[p];
-            for (unsigned int i = 0; i < dim; ++i)
+            std::array<std::array<double, 4>, dim> share;
+            for (unsigned int d = 0; d < dim; ++d)
+              share[d] = weights_along_axis(points, shape, here, d, p);
+            for (unsigned int e = 0; e < weights_.size(); ++e)
               {
-                *sum++ += V * x[i];
-                *sum++ += V * pressure[p] * x[i];
-                for (unsigned int j = i; j < dim; ++j)
-                  *sum++ += V * x[i] * x[j];
+                weights_[e].value = 1.;
+                for (unsigned int d = 0; d < dim; ++d)
+                  weights_[e].value *= share[d][(entry[e] >> (2 * d)) % 4];
               }
           }
+        else
+          weights_of_point(points, state.grid, shape, cell, p, weights_);
+        const Point<dim>          x = load_place(points, points.position, p);
+        const double              V = volume_of_points<dim, double>(points, p);
+        std::array<double, width> moments{{V, V * pressure[p]}};
+        unsigned int              k = 2;
+        for (unsigned int i = 0; i < dim; ++i)
+          {
+            moments[k++] = V * x[i];
+            moments[k++] = V * pressure[p] * x[i];
+            for (unsigned int j = i; j < dim; ++j)
+              moments[k++] = V * x[i] * x[j];
+          }
+        for (const NodeWeight<dim> &weight : weights_)
+          if (weight.value != 0)
+            for (unsigned int i = 0; i < width; ++i)
+              sums_[std::size_t(width) * weight.node + i] +=
+                weight.value * moments[i];
       }
   }
 

@@ -79,12 +79,12 @@ namespace talus
   /// Weights of the box of point @p p at the four nodes of the patch of its
   /// cell along axis @p d [-].
   template <int dim>
-  std::array<double, 4>
-  weights_along_axis(const Points<dim> &points,
-                     const BoxShape    &shape,
-                     const Cell<dim>   &cell,
-                     const unsigned int d,
-                     const unsigned int p)
+  TALUS_ALWAYS_INLINE std::array<double, 4>
+                      weights_along_axis(const Points<dim> &points,
+                                         const BoxShape    &shape,
+                                         const Cell<dim>   &cell,
+                                         const unsigned int d,
+                                         const unsigned int p)
   {
     return axis_weights(
              (points.data(points.position, d)[p] - cell.lower[d]) / cell.size,
