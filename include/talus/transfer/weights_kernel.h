@@ -3,6 +3,7 @@
 #define talus_transfer_weights_kernel_h
 
 #include <talus/grid/cell.h>
+#include <talus/points/points.h>
 #include <talus/points/points_kernel.h>
 #include <talus/transfer/box_shape.h>
 
