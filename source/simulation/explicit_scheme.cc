@@ -202,7 +202,10 @@ namespace talus
     if (!transfer_.scheme().filters(state_.step))
       return;
     PhaseTimer::Scope scope(timer_, "filter");
-    filter_null_space(state_, transfer_, &problem_.boundaries);
+    filter_null_space(state_,
+                      problem_.materials,
+                      transfer_,
+                      &problem_.boundaries);
   }
 
 

@@ -3,6 +3,7 @@
 #define talus_simulation_null_space_filter_h
 
 #include <talus/boundaries/boundaries.h>
+#include <talus/materials/materials.h>
 #include <talus/state/state.h>
 #include <talus/transfer/transfer.h>
 
@@ -24,6 +25,7 @@ namespace talus
   /// mean over the cell, and the differences of the points from the mean
   /// accumulate as points move from cell to cell. The filter replaces the mean
   /// stress by the cell mean, which changes no nodal force. @cite alkafaji2013
+  /// In undrained soil the pressure of the water changes.
   /// Laws that compute the stress from the deformation gradient restore their
   /// stress in the next step.
   ///
@@ -34,9 +36,10 @@ namespace talus
   /// The order of XPIC is a parameter of the scheme. Collective.
   template <int dim>
   void
-  filter_null_space(State<dim>          &state,
-                    const Transfer<dim> &transfer,
-                    Boundaries<dim>     *boundaries = nullptr);
+  filter_null_space(State<dim>           &state,
+                    const Materials<dim> &materials,
+                    const Transfer<dim>  &transfer,
+                    Boundaries<dim>      *boundaries = nullptr);
 } // namespace talus
 
 #endif
