@@ -240,13 +240,8 @@ namespace talus
     std::array<std::array<double, 4>, dim> share;
     for (unsigned int d = 0; d < dim; ++d)
       if (d != axis)
-        share[d] =
-          axis_weights(
-            (state.points.data(state.points.position, d)[p] - cell.lower[d]) /
-              cell.size,
-            half_length_in_cells<dim>(
-              state.points, state.constants.box_shape, d, p, 1. / cell.size))
-            .value;
+        share[d] = weights_along_axis(
+          state.points, state.constants.box_shape, cell, d, p);
     for (unsigned int i = 0; i < nodes_per_row<dim>; ++i)
       {
         const unsigned int k     = index_in_patch(axis, at.row, i);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/contact/nodal_pore_pressure.h>
 #include <talus/points/points_kernel.h>
+#include <talus/transfer/weights_kernel.h>
 
 #include <algorithm>
 #include <array>
@@ -36,7 +37,7 @@ namespace talus
       };
       if (!here.uniform ||
           std::any_of(here.patch.begin(), here.patch.end(), needs))
-        add_cell(state, c, cell.begin, cell.end);
+        add_cell(state, is_needed, c, cell.begin, cell.end);
     });
     for (const auto &hanging : grid.hanging_nodes())
       for (unsigned int k = 0; k < width; ++k)
@@ -48,35 +49,61 @@ namespace talus
 
 
 
+  // Near cells of one size the weights are products at the nodes of a patch.
   template <int dim>
   void
-  NodalPorePressure<dim>::add_cell(const State<dim>  &state,
-                                   const unsigned int cell,
-                                   const unsigned int begin,
-                                   const unsigned int end)
+  NodalPorePressure<dim>::add_cell(const State<dim>                 &state,
+                                   const std::vector<unsigned char> &is_needed,
+                                   const unsigned int                cell,
+                                   const unsigned int                begin,
+                                   const unsigned int                end)
   {
     const Points<dim>  &points   = state.points;
+    const Cell<dim>    &here     = state.grid.cells()[cell];
+    const BoxShape     &shape    = state.constants.box_shape;
     const double *const pressure = points.data(points.pore_pressure());
+    const bool          has_patch =
+      here.uniform && shape.rule != BoxRule::convected_domain;
+    weights_.clear();
+    std::array<unsigned int, power(4, dim)> entry; // of the patch
+    for (unsigned int k = 0; k < entry.size() && has_patch; ++k)
+      if (is_needed[here.patch[k]])
+        {
+          entry[weights_.size()] = k;
+          weights_.push_back({here.patch[k], 0., {}});
+        }
     for (unsigned int p = begin; p < end; ++p)
       {
-        weights_of_point(
-          points, state.grid, state.constants.box_shape, cell, p, weights_);
-        const Point<dim> x      = load_place(points, points.position, p);
-        const double     volume = volume_of_points<dim, double>(points, p);
-        for (const NodeWeight<dim> &weight : weights_)
+        if (has_patch)
           {
-            const double V   = weight.value * volume;
-            double      *sum = &sums_[std::size_t(width) * weight.node];
-            *sum++ += V;
-            *sum++ += V * pressure[p];
-            for (unsigned int i = 0; i < dim; ++i)
+            std::array<std::array<double, 4>, dim> share;
+            for (unsigned int d = 0; d < dim; ++d)
+              share[d] = weights_along_axis(points, shape, here, d, p);
+            for (unsigned int e = 0; e < weights_.size(); ++e)
               {
-                *sum++ += V * x[i];
-                *sum++ += V * pressure[p] * x[i];
-                for (unsigned int j = i; j < dim; ++j)
-                  *sum++ += V * x[i] * x[j];
+                weights_[e].value = 1.;
+                for (unsigned int d = 0; d < dim; ++d)
+                  weights_[e].value *= share[d][(entry[e] >> (2 * d)) % 4];
               }
           }
+        else
+          weights_of_point(points, state.grid, shape, cell, p, weights_);
+        const Point<dim>          x = load_place(points, points.position, p);
+        const double              V = volume_of_points<dim, double>(points, p);
+        std::array<double, width> moments{{V, V * pressure[p]}};
+        unsigned int              k = 2;
+        for (unsigned int i = 0; i < dim; ++i)
+          {
+            moments[k++] = V * x[i];
+            moments[k++] = V * pressure[p] * x[i];
+            for (unsigned int j = i; j < dim; ++j)
+              moments[k++] = V * x[i] * x[j];
+          }
+        for (const NodeWeight<dim> &weight : weights_)
+          if (weight.value != 0)
+            for (unsigned int i = 0; i < width; ++i)
+              sums_[std::size_t(width) * weight.node + i] +=
+                weight.value * moments[i];
       }
   }
 

@@ -44,7 +44,8 @@ namespace talus
 
 
 
-  /// Mark the nodes of seabeds and facets, by node, ghosts included.
+  /// Mark the nodes of seabeds and facets, by node, ghosts included, and the
+  /// hanging nodes that share their sums with one.
   template <int dim>
   std::vector<unsigned char>
   SoilAtPlaces<dim>::nodes_of_places(const Grid<dim> &grid) const
@@ -55,6 +56,9 @@ namespace talus
     if (!obstacles_.empty())
       for (const auto &at : facets_.nodes_and_obstacles())
         result[at.node] = 1;
+    for (const auto &hanging : grid.hanging_nodes())
+      for (const auto &[master, weight] : hanging.masters)
+        result[hanging.node] |= result[master];
     return result;
   }
 

@@ -403,6 +403,27 @@ namespace talus
 
 
 
+  template <int dim>
+  std::vector<Remark>
+  notes_on_undrained_soil(const std::vector<std::unique_ptr<Body<dim>>> &bodies,
+                          const Materials<dim> &materials)
+  {
+    std::vector<Remark> notes;
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      if (materials.of_body(b).pore_water().stiffness > 0. &&
+          !bodies[b]->initial_state().has_stress())
+        notes.emplace_back("the soil is undrained and has no stress at the "
+                           "start: water carries its weight, so that friction "
+                           "in the soil, on seabed and obstacles has nearly "
+                           "no effective stress. Soil at rest has 'Bodies/" +
+                             bodies[b]->name() + "/K0'.",
+                           Severity::look,
+                           "body '" + bodies[b]->name() + "'");
+    return notes;
+  }
+
+
+
   template decltype(overburden<2>)              overburden<2>;
   template decltype(overburden<3>)              overburden<3>;
   template decltype(normal_stress_at_rest<2>)   normal_stress_at_rest<2>;
@@ -411,4 +432,6 @@ namespace talus
   template decltype(set_geostatic_stress<3>)    set_geostatic_stress<3>;
   template decltype(notes_on_stress_at_rest<2>) notes_on_stress_at_rest<2>;
   template decltype(notes_on_stress_at_rest<3>) notes_on_stress_at_rest<3>;
+  template decltype(notes_on_undrained_soil<2>) notes_on_undrained_soil<2>;
+  template decltype(notes_on_undrained_soil<3>) notes_on_undrained_soil<3>;
 } // namespace talus

@@ -153,6 +153,8 @@ namespace talus
       if (trigger.end_time() <= 0. && pore_pressure.end_time() <= 0.)
         remark.severity = Severity::information;
     add_remarks(on_stress);
+    if (loading.gravity().norm() > 0.)
+      add_remarks(notes_on_undrained_soil(bodies_.list(), materials));
     look_at_geometry(state);
     if (bodies_.may_leave_cells())
       send_points_to_owners(points, state.grid);

@@ -203,8 +203,8 @@ namespace talus
       return;
     PhaseTimer::Scope scope(timer_, "filter");
     filter_null_space(state_,
-                      transfer_,
                       problem_.materials,
+                      transfer_,
                       &problem_.boundaries);
   }
 

@@ -15,14 +15,16 @@ namespace talus
     /// deviator. The first half of B-bar computes the shift. With B-bar the
     /// nodes feel the mean only, so nodal forces are unchanged; without B-bar
     /// nothing is replaced. With an excess pore pressure u the total stress
-    /// gets the mean, and the shift contains -u: what is hidden is the volume
-    /// of the points, which undrained water and soil answer by their stiffness.
+    /// gets the mean, and the shift contains -u. In undrained soil the water,
+    /// the stiffer part, takes the change as far as it does not cavitate: in
+    /// the effective stress it would be strength, kept by liquefied soil, which
+    /// bears no tension.
     template <int dim>
     void
     filter_mean_stress(Points<dim>          &points,
+                       const Materials<dim> &materials,
                        StepWorkspace<dim>   &workspace,
-                       const Transfer<dim>  &transfer,
-                       const Materials<dim> &materials)
+                       const Transfer<dim>  &transfer)
     {
       points.for_each_batch([&](const Batch &batch) {
         workspace.reinit(batch.begin, batch.end);
@@ -35,14 +37,14 @@ namespace talus
             [&](const MaterialModel<dim> &model,
                 const unsigned int        begin,
                 const unsigned int        end) {
-              const double  share = model.pore_water().share();
-              double *const u     = points.data(points.pore_pressure());
+              const WaterResponse<dim> water = model.pore_water();
+              double *const            u = points.data(points.pore_pressure());
               for (unsigned int p = begin; p < end; ++p)
                 {
-                  double      &change = shift[p - batch.begin];
-                  const double total  = change + u[p];
-                  u[p] -= share * total;
-                  change = (1. - share) * total;
+                  double &of_point = shift[p - batch.begin];
+                  if (water.stiffness > 0.)
+                    u[p] = std::max(-of_point, -water.largest_suction);
+                  of_point += u[p];
                 }
             });
         // Shift all three normal stresses, also in 2-D: the deviator must not
@@ -111,12 +113,12 @@ namespace talus
   template <int dim>
   void
   filter_null_space(State<dim>            &state,
-                    const Transfer<dim>   &transfer,
                     const Materials<dim>  &materials,
+                    const Transfer<dim>   &transfer,
                     Boundaries<dim> *const boundaries)
   {
     Points<dim> &points = state.points;
-    filter_mean_stress(points, state.workspace, transfer, materials);
+    filter_mean_stress(points, materials, state.workspace, transfer);
     const unsigned int                   n = points.size();
     std::array<std::vector<double>, dim> unseen, seen;
     for (unsigned int d = 0; d < dim; ++d)

@@ -23,7 +23,7 @@ namespace talus
     prepare(const Grid<dim> &grid);
 
     /// Sum over the points that reach nodes with @p is_needed, by node of the
-    /// grid, ghosts included. Collective.
+    /// grid, ghosts and hanging nodes of needed ones included. Collective.
     void
     find(const State<dim> &state, const std::vector<unsigned char> &is_needed);
 
@@ -45,10 +45,11 @@ namespace talus
     static constexpr unsigned int width = 2 + 2 * dim + dim * (dim + 1) / 2;
 
     void
-    add_cell(const State<dim> &state,
-             unsigned int      cell,
-             unsigned int      begin,
-             unsigned int      end);
+    add_cell(const State<dim>                 &state,
+             const std::vector<unsigned char> &is_needed,
+             unsigned int                      cell,
+             unsigned int                      begin,
+             unsigned int                      end);
 
     std::vector<double>          sums_; ///< by node; empty before find()
     NodalExchange<dim>           exchange_;

@@ -76,13 +76,6 @@ namespace talus
     double largest_suction;
     double soil_bulk; ///< K, Pa
 
-    /// Share of the water in the stiffness of soil and water [-].
-    double
-    share() const
-    {
-      return stiffness > 0. ? stiffness / (stiffness + soil_bulk) : 0.;
-    }
-
     /// Advance the excess pore pressure of the points [begin, end) over a step
     /// of @p dt seconds with the velocity gradient in the workspace.
     void

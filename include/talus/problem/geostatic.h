@@ -65,6 +65,13 @@ namespace talus
                           const std::vector<std::unique_ptr<Body<dim>>> &bodies,
                           const Materials<dim> &materials,
                           MPI_Comm              communicator);
+
+
+  /// Return notes on bodies of undrained soil without stress at the start.
+  template <int dim>
+  std::vector<Remark>
+  notes_on_undrained_soil(const std::vector<std::unique_ptr<Body<dim>>> &bodies,
+                          const Materials<dim> &materials);
 } // namespace talus
 
 #endif

@@ -41,6 +41,13 @@ namespace talus
       return !K0_.empty();
     }
 
+    /// Return whether the body starts with that or another stress.
+    bool
+    has_stress() const
+    {
+      return has_stress_at_rest() || !stress_.empty();
+    }
+
     /// Coefficient of earth pressure at rest [-], if has_stress_at_rest().
     double
     K0() const

@@ -25,6 +25,7 @@ namespace talus
   /// mean over the cell, and the differences of the points from the mean
   /// accumulate as points move from cell to cell. The filter replaces the mean
   /// stress by the cell mean, which changes no nodal force. @cite alkafaji2013
+  /// In undrained soil the pressure of the water changes.
   /// Laws that compute the stress from the deformation gradient restore their
   /// stress in the next step.
   ///
@@ -36,8 +37,8 @@ namespace talus
   template <int dim>
   void
   filter_null_space(State<dim>           &state,
-                    const Transfer<dim>  &transfer,
                     const Materials<dim> &materials,
+                    const Transfer<dim>  &transfer,
                     Boundaries<dim>      *boundaries = nullptr);
 } // namespace talus
 

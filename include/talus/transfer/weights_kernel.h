@@ -2,6 +2,8 @@
 #ifndef talus_transfer_weights_kernel_h
 #define talus_transfer_weights_kernel_h
 
+#include <talus/grid/cell.h>
+#include <talus/points/points.h>
 #include <talus/points/points_kernel.h>
 #include <talus/transfer/box_shape.h>
 
@@ -71,6 +73,24 @@ namespace talus
     w.gradient[2]           = (1. + a) - 2. * b;
     w.gradient[1]           = (b - 1.) - 2. * a;
     return w;
+  }
+
+
+
+  /// Weights of the box of point @p p at the four nodes of the patch of its
+  /// cell along axis @p d [-].
+  template <int dim>
+  TALUS_ALWAYS_INLINE std::array<double, 4>
+                      weights_along_axis(const Points<dim> &points,
+                                         const BoxShape    &shape,
+                                         const Cell<dim>   &cell,
+                                         const unsigned int d,
+                                         const unsigned int p)
+  {
+    return axis_weights(
+             (points.data(points.position, d)[p] - cell.lower[d]) / cell.size,
+             half_length_in_cells<dim>(points, shape, d, p, 1. / cell.size))
+      .value;
   }
 } // namespace talus
 

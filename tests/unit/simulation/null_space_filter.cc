@@ -75,7 +75,7 @@ namespace
         momentum -= m * core.get(core.points.velocity, p);
         scale += m * core.get(core.points.velocity, p).norm();
       }
-    filter_null_space(core, core.transfer, Materials<dim>({}));
+    filter_null_space(core, Materials<dim>({}), core.transfer);
     double most_taken = 0.;
     for (unsigned int p = 0; p < n; ++p)
       {
@@ -110,8 +110,8 @@ namespace
     };
     const Tensor<1, dim> before = momentum();
     filter_null_space(core,
-                      core.transfer,
                       Materials<dim>({}),
+                      core.transfer,
                       &core.boundaries);
     const Tensor<1, dim> taken = core.accounts.impulse("wall impulse");
     EXPECT_GT(taken.norm(), 1e-3 * before.norm());
@@ -137,7 +137,7 @@ namespace
     std::vector<Stress<dim, double>> old(n);
     for (unsigned int p = 0; p < n; ++p)
       old[p] = stress(p);
-    filter_null_space(core, core.transfer, Materials<dim>({}));
+    filter_null_space(core, Materials<dim>({}), core.transfer);
     double largest_change = 0.;
     for (unsigned int p = 0; p < n; ++p)
       {
@@ -166,6 +166,50 @@ namespace
     for (unsigned int p = 0; p < n; ++p)
       EXPECT_NEAR(core.workspace.mean_stress_shift()[p], 0., 1e-13);
   }
+
+
+
+  /// The total stress gets the mean of its cell: in undrained soil by the
+  /// water, unless it cavitates, otherwise by the soil.
+  template <int dim>
+  void
+  expect_mean_of_water(Core<dim> &core)
+  {
+    Points<dim> &points = core.points;
+    points.add_pore_pressure();
+    Materials<dim> materials(
+      {{"silt", "Mohr-Coulomb"}, {"sand", "Mohr-Coulomb"}});
+    ParameterAcceptor::declare_all_parameters();
+    ParameterAcceptor::prm.parse_input_from_string(
+      "subsection Materials\nsubsection silt\nsubsection Pore water\n"
+      "set Drainage = undrained\nset Largest suction = 2\nset Stiffness = 9\n"
+      "end\nend\nend");
+    ParameterAcceptor::parse_all_parameters();
+    materials.assign({"0", "1", "2"}, {"silt", "silt", "sand"});
+    double *const       u = points.data(points.pore_pressure());
+    std::vector<double> pressure, stress;
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        u[p] = core.number(-2., 2.);
+        pressure.push_back(u[p]);
+        stress.push_back(points.data(points.stress, 0)[p]);
+      }
+    filter_null_space(core, materials, core.transfer);
+    core.workspace.reinit(0, points.size());
+    core.transfer.apply_bbar_to_stress(points, core.workspace, points.all());
+    std::array<unsigned int, 4> count{}; // by water, both, by soil, no change
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        EXPECT_NEAR(core.workspace.mean_stress_shift()[p], -u[p], 1e-13);
+        EXPECT_GE(u[p], -2.);
+        const bool is_silt  = points.data(points.body)[p] < 2.;
+        const bool has_kept = points.data(points.stress, 0)[p] == stress[p];
+        EXPECT_TRUE(is_silt ? has_kept || u[p] == -2. : u[p] == pressure[p]);
+        ++count[!is_silt ? 2 : !has_kept ? 1 : u[p] == pressure[p] ? 3 : 0];
+      }
+    for (const unsigned int n : count)
+      EXPECT_GT(n, 0u);
+  }
 } // namespace
 
 
@@ -191,4 +235,12 @@ TEST(NullSpaceFilter, MeanStressIsThatOfTheCell)
 {
   on_both_meshes<2>("", expect_mean_stress<2>);
   on_both_meshes<3>("", expect_mean_stress<3>);
+}
+
+
+
+TEST(NullSpaceFilter, WaterTakesTheMeanStress)
+{
+  on_both_meshes<2>("", expect_mean_of_water<2>);
+  on_both_meshes<3>("", expect_mean_of_water<3>);
 }
