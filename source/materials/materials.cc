@@ -3,6 +3,8 @@
 #include <talus/materials/materials.h>
 #include <talus/points/points_kernel.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <boost/algorithm/string/join.hpp>
 
 #include <algorithm>
@@ -10,6 +12,15 @@
 namespace talus
 {
   using namespace dealii;
+
+  StrengthRange
+  over_ranks(const StrengthRange &range, const MPI_Comm communicator)
+  {
+    return {Utilities::MPI::min(range.least, communicator),
+            Utilities::MPI::max(range.largest, communicator)};
+  }
+
+
 
   // The parameters of a section depend on its law, so names and laws must be
   // known before parameters are declared: a first, tolerant pass over the file
@@ -191,7 +202,7 @@ namespace talus
     for (unsigned int p = 0; p < points.size(); ++p)
       if (points.data(points.body)[p] == body)
         range.include(points.data(undrained_strength_)[p]);
-    return range.over_ranks(communicator);
+    return over_ranks(range, communicator);
   }
 
 

@@ -288,8 +288,8 @@ namespace talus
               ratios.include(strength / vertical);
             }
         notes.push_back(note_of_strength(bodies[b]->name(),
-                                         range.over_ranks(communicator),
-                                         ratios.over_ranks(communicator)));
+                                         over_ranks(range, communicator),
+                                         over_ranks(ratios, communicator)));
       }
     return notes;
   }

@@ -11,6 +11,12 @@
 
 namespace talus
 {
+  /// Range of the soil of all ranks. Collective.
+  StrengthRange
+  over_ranks(const StrengthRange &range, MPI_Comm communicator);
+
+
+
   /// Name of a material and of its constitutive law.
   struct MaterialName
   {

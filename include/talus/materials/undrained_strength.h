@@ -4,8 +4,6 @@
 
 #include <talus/materials/strength_variation.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -74,14 +72,6 @@ namespace talus
     {
       least   = std::min(least, strength);
       largest = std::max(largest, strength);
-    }
-
-    /// Range of the soil of all ranks. Collective.
-    StrengthRange
-    over_ranks(const MPI_Comm communicator) const
-    {
-      return {dealii::Utilities::MPI::min(least, communicator),
-              dealii::Utilities::MPI::max(largest, communicator)};
     }
   };
 } // namespace talus
