@@ -2,7 +2,7 @@
 #include <talus/contact/box_extent.h>
 #include <talus/contact/face_coverage.h>
 #include <talus/points/points_kernel.h>
-#include <talus/transfer/weights_kernel.h>
+#include <talus/transfer/weights.h>
 
 #include <algorithm>
 #include <cmath>

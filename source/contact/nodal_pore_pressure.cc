@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/contact/nodal_pore_pressure.h>
 #include <talus/points/points_kernel.h>
-#include <talus/transfer/weights_kernel.h>
+#include <talus/transfer/weights.h>
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,6 @@
 #ifndef talus_transfer_weights_kernel_h
 #define talus_transfer_weights_kernel_h
 
-#include <talus/grid/cell.h>
-#include <talus/points/points.h>
 #include <talus/points/points_kernel.h>
 #include <talus/transfer/box_shape.h>
 
@@ -75,23 +73,6 @@ namespace talus
     return w;
   }
 
-
-
-  /// Weights of the box of point @p p at the four nodes of the patch of its
-  /// cell along axis @p d [-].
-  template <int dim>
-  TALUS_ALWAYS_INLINE std::array<double, 4>
-                      weights_along_axis(const Points<dim> &points,
-                                         const BoxShape    &shape,
-                                         const Cell<dim>   &cell,
-                                         const unsigned int d,
-                                         const unsigned int p)
-  {
-    return axis_weights(
-             (points.data(points.position, d)[p] - cell.lower[d]) / cell.size,
-             half_length_in_cells<dim>(points, shape, d, p, 1. / cell.size))
-      .value;
-  }
 } // namespace talus
 
 #endif
