@@ -272,6 +272,22 @@ class BadInput(Case):
                                     "Materials/clay/Friction angle=30"]),
             "'Mohr-Coulomb'")
 
+    def test_critical_state(self):
+        good = GOOD.replace("linear elastic", "modified Cam clay").replace(
+            "    set Young's modulus = 1e6\n", "")
+        at_rest = ["Bodies/block/K0=0.6", "Gravity/Magnitude=9.81"]
+        for settings, words in (
+                ([], ["'block'", "no effective stress", "'Bodies/block/K0'"]),
+                (at_rest + ["Materials/clay/Overconsolidation ratio=2 - depth"],
+                 ["'Materials/clay/Overconsolidation ratio' is 0.", "1 or more"]),
+                (at_rest + ["Materials/clay/Slope of swelling line=0.3"],
+                 ["`Slope of compression line` is 0.2", "0.3"]),
+                (at_rest + ["Materials/clay/Attraction=0"],
+                 ["`Attraction` is 0"]),
+                (["Materials/clay/Young's modulus=1e6"],
+                 ["'Young's modulus'", "'modified Cam clay'"])):
+            self.assert_refused(self.run_file(good, settings), *words)
+
     def test_residual_strength_above_the_strength(self):
         """Whichever way the strength is given; the law would raise it."""
         (self.folder / "strength.csv").write_text(
