@@ -240,7 +240,7 @@ namespace talus
     std::array<std::array<double, 4>, dim> share;
     for (unsigned int d = 0; d < dim; ++d)
       if (d != axis)
-        share[d] = weights_along_axis(
+        share[d] = weights_along_axis<dim>(
           state.points, state.constants.box_shape, cell, d, p);
     for (unsigned int i = 0; i < nodes_per_row<dim>; ++i)
       {

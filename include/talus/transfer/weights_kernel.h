@@ -2,8 +2,6 @@
 #ifndef talus_transfer_weights_kernel_h
 #define talus_transfer_weights_kernel_h
 
-#include <talus/grid/cell.h>
-#include <talus/points/points.h>
 #include <talus/points/points_kernel.h>
 #include <talus/transfer/box_shape.h>
 
@@ -79,11 +77,11 @@ namespace talus
 
   /// Weights of the box of point @p p at the four nodes of the patch of its
   /// cell along axis @p d [-].
-  template <int dim>
+  template <int dim, typename Columns, typename Cell>
   TALUS_ALWAYS_INLINE std::array<double, 4>
-                      weights_along_axis(const Points<dim> &points,
+                      weights_along_axis(const Columns     &points,
                                          const BoxShape    &shape,
-                                         const Cell<dim>   &cell,
+                                         const Cell        &cell,
                                          const unsigned int d,
                                          const unsigned int p)
   {

@@ -179,12 +179,12 @@ namespace
     points.add_pore_pressure();
     Materials<dim> materials(
       {{"silt", "Mohr-Coulomb"}, {"sand", "Mohr-Coulomb"}});
-    ParameterAcceptor::declare_all_parameters();
-    ParameterAcceptor::prm.parse_input_from_string(
+    dealii::ParameterAcceptor::declare_all_parameters();
+    dealii::ParameterAcceptor::prm.parse_input_from_string(
       "subsection Materials\nsubsection silt\nsubsection Pore water\n"
       "set Drainage = undrained\nset Largest suction = 2\nset Stiffness = 9\n"
       "end\nend\nend");
-    ParameterAcceptor::parse_all_parameters();
+    dealii::ParameterAcceptor::parse_all_parameters();
     materials.assign({"0", "1", "2"}, {"silt", "silt", "sand"});
     double *const       u = points.data(points.pore_pressure());
     std::vector<double> pressure, stress;
