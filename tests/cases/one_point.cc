@@ -133,7 +133,8 @@ TEST(OnePoint, UndrainedDilationThatFades)
        {std::tuple{5., 0.02, 64533.6}, {-5., 0.02, 35466.4}, {-10., 0.05, 0.}})
     {
       Case<2> sample("verification/simple-shear.prm",
-                     {"Materials/Names=clay, sand",
+                     {"End time=30",
+                      "Materials/Names=clay, sand",
                       "Materials/sand/Law=Mohr-Coulomb",
                       "Materials/sand/Density=600",
                       "Materials/sand/Young's modulus=20e6",
