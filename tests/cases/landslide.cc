@@ -65,9 +65,9 @@ TEST(LandslideCoarse, WithAndWithoutSplitting)
 
 
 // In plane strain Tresca's soil, Mohr-Coulomb without friction, flows at the
-// same shear stress as von Mises' soil, and undrained in effective stress it has
-// the same moduli. With K0 = 1 the seabed has the same normal force: otherwise
-// water carries the weight from the start, and friction has only N - u A.
+// same shear stress as von Mises' soil, and undrained, in effective stress, it
+// has the same moduli. With K0 = 1 the seabed has the same normal force:
+// otherwise water carries the weight from the start, and friction has N - u A.
 TEST(LandslideUndrained, MohrCoulombWithoutFriction)
 {
   Verification gates("Landslide, h = 0.8 m, undrained, phi = 0, c = s_u",
