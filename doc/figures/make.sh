@@ -44,6 +44,7 @@ for stress in 0 1e3; do
 done
 run slab-failure prm/slab-failure.prm
 run sand-slope prm/sand-slope.prm
+run sediment-slope prm/sediment-slope.prm
 run slope prm/slope.prm
 run slope-3d prm/slope-3d.prm
 run first-slope prm/first-slope.prm --set "Output/Boxes as cells=true" \
@@ -95,6 +96,7 @@ draw pipeline $here/pipeline.png $scratch/pipeline
 draw moving_obstacles $here/moving-obstacles.png $scratch/pipe-on-springs
 draw slab_failure $here/slab-failure.png $scratch/slab-failure
 draw sand_slope $here/sand-slope.png $scratch/sand-slope
+draw sediment_slope $here/sediment-slope.png $scratch/sediment-slope
 draw slope $here/slope.png $scratch/slope-3d $scratch/slope
 draw pipe_flow $here/pipe-flow.png \
           $scratch/pipe-0=smooth $scratch/pipe-1e3=rough

@@ -45,7 +45,7 @@ PAGES = [
         ("Shear bands", ["ShearBand", "ShearBandFine", "ShearBandRuns",
                          "SlabFailure", "SofteningSeabed"]),
         ("Retrogression in sensitive clay", ["Retrogression"]),
-        ("Excess pore pressure", ["PorePressure", "SandSlope"]),
+        ("Excess pore pressure", ["PorePressure", "SandSlope", "CamClay"]),
         ("Initial stress, trigger and ground motion",
          ["Geostatic", "Trigger", "GroundMotion", "LandslideFromEquilibrium",
           "LandslideFromEquilibriumFine"]),

@@ -2,7 +2,7 @@
 #include <talus/contact/box_extent.h>
 #include <talus/contact/face_coverage.h>
 #include <talus/points/points_kernel.h>
-#include <talus/transfer/weights_kernel.h>
+#include <talus/transfer/weights.h>
 
 #include <algorithm>
 #include <cmath>
@@ -240,7 +240,7 @@ namespace talus
     std::array<std::array<double, 4>, dim> share;
     for (unsigned int d = 0; d < dim; ++d)
       if (d != axis)
-        share[d] = weights_along_axis<dim>(
+        share[d] = weights_along_axis(
           state.points, state.constants.box_shape, cell, d, p);
     for (unsigned int i = 0; i < nodes_per_row<dim>; ++i)
       {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/contact/nodal_pore_pressure.h>
 #include <talus/points/points_kernel.h>
-#include <talus/transfer/weights_kernel.h>
+#include <talus/transfer/weights.h>
 
 #include <algorithm>
 #include <array>
@@ -78,7 +78,7 @@ namespace talus
           {
             std::array<std::array<double, 4>, dim> share;
             for (unsigned int d = 0; d < dim; ++d)
-              share[d] = weights_along_axis<dim>(points, shape, here, d, p);
+              share[d] = weights_along_axis(points, shape, here, d, p);
             for (unsigned int e = 0; e < weights_.size(); ++e)
               {
                 weights_[e].value = 1.;

@@ -11,15 +11,17 @@ namespace talus
   constexpr double largest_poisson_ratio = 0.49999;
 
   template <int dim>
-  ElasticLaw<dim>::ElasticLaw(const std::string &section)
+  ElasticLaw<dim>::ElasticLaw(const std::string &section,
+                              const bool         has_young_modulus)
     : MaterialModel<dim>(section)
     , pore_water_(section)
   {
-    this->add_parameter("Young's modulus",
-                        young_modulus_,
-                        "Young's modulus E for small strains [Pa].",
-                        ParameterAcceptor::prm,
-                        Double(0.));
+    if (has_young_modulus)
+      this->add_parameter("Young's modulus",
+                          young_modulus_,
+                          "Young's modulus E for small strains [Pa].",
+                          ParameterAcceptor::prm,
+                          Double(0.));
     this->add_parameter(
       "Poisson's ratio",
       poisson_ratio_,
@@ -69,9 +71,10 @@ namespace talus
   WaterResponse<dim>
   ElasticLaw<dim>::pore_water() const
   {
-    return {pore_water_.stiffness(poisson_ratio_, moduli().bulk),
+    const double bulk = bulk_modulus_for_water();
+    return {pore_water_.stiffness(poisson_ratio_, bulk),
             pore_water_.largest_suction(),
-            moduli().bulk};
+            bulk};
   }
 
 

@@ -4,6 +4,7 @@
 #include <talus/materials/hencky.h>
 #include <talus/materials/herschel_bulkley.h>
 #include <talus/materials/linear_elastic.h>
+#include <talus/materials/modified_cam_clay.h>
 #include <talus/materials/mohr_coulomb.h>
 #include <talus/materials/neo_hookean.h>
 #include <talus/materials/von_mises.h>
@@ -27,6 +28,7 @@ namespace talus
         law<dim, LinearElastic>("linear elastic"),
         law<dim, VonMises>("von Mises"),
         law<dim, MohrCoulomb>("Mohr-Coulomb"),
+        law<dim, ModifiedCamClay>("modified Cam clay"),
         law<dim, Hencky>("Hencky"),
         law<dim, NeoHookean>("neo-Hookean"),
         law<dim, HerschelBulkley, FlowLaw::herschel_bulkley>(

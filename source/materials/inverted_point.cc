@@ -113,13 +113,14 @@ namespace talus
     for (unsigned int p = begin; p < end; ++p)
       AssertThrow(points.data(plastic)[p] >= 0.,
                   ExcPoint(
-                    text("The viscoplastic flow of point ",
+                    text("The plastic flow of point ",
                          points.data(points.id)[p],
                          " at (",
                          load_place(points, points.position, p),
                          ") m could not be computed. Find the cause of large "
-                         "velocities there, or change the consistency or the "
-                         "rate coefficient of the material.")));
+                         "velocities there, or change the consistency, the "
+                         "rate coefficient or the compression lines of the "
+                         "material.")));
   }
 
 

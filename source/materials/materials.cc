@@ -13,6 +13,15 @@ namespace talus
 {
   using namespace dealii;
 
+  StrengthRange
+  over_ranks(const StrengthRange &range, const MPI_Comm communicator)
+  {
+    return {Utilities::MPI::min(range.least, communicator),
+            Utilities::MPI::max(range.largest, communicator)};
+  }
+
+
+
   // The parameters of a section depend on its law, so names and laws must be
   // known before parameters are declared: a first, tolerant pass over the file
   // finds both (doc/architecture.md). Names and laws are declared here again
@@ -137,6 +146,27 @@ namespace talus
 
 
   template <int dim>
+  void
+  Materials<dim>::use_initial_pressure(const Points<dim> &points,
+                                       const MPI_Comm     communicator)
+  {
+    std::vector<double> largest(models_.size(), 0.);
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        double &of_model =
+          largest[material_of_body_[points.data(points.body)[p]]];
+        of_model =
+          std::max(of_model, -mean_normal(load_stress<dim, double>(points, p)));
+      }
+    for (unsigned int m = 0; m < models_.size(); ++m)
+      if (const double of_all = Utilities::MPI::max(largest[m], communicator);
+          of_all > 0.)
+        models_[m]->use_initial_pressure(of_all);
+  }
+
+
+
+  template <int dim>
   double
   Materials<dim>::water_energy(const Points<dim> &points) const
   {
@@ -168,16 +198,11 @@ namespace talus
   {
     if (of_body(body).undrained_strength() == nullptr)
       return {0., 0.};
-    StrengthRange range{std::numeric_limits<double>::infinity(), 0.};
+    StrengthRange range;
     for (unsigned int p = 0; p < points.size(); ++p)
       if (points.data(points.body)[p] == body)
-        {
-          const double strength = points.data(undrained_strength_)[p];
-          range.least           = std::min(range.least, strength);
-          range.largest         = std::max(range.largest, strength);
-        }
-    return {Utilities::MPI::min(range.least, communicator),
-            Utilities::MPI::max(range.largest, communicator)};
+        range.include(points.data(undrained_strength_)[p]);
+    return over_ranks(range, communicator);
   }
 
 

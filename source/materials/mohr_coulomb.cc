@@ -94,12 +94,10 @@ namespace talus
     const double tangent = std::tan(radians(friction_angle_)) * factor;
     const double root    = std::sqrt(1. + tangent * tangent);
     const auto   stress  = load_stress<dim, double>(points, p);
-    const double mean    = mean_normal(stress);
-    const auto   s       = add_mean(stress, -mean);
-    const double t       = std::sqrt(0.5 * contract(s, s));
-    const double share =
-      t > 0. ? mohr_coulomb_shear<dim, double>(s, t, tangent / root) / t : 1.;
-    return std::max(0., (cohesion_ * factor - mean * tangent) / (root * share));
+    const double share   = mohr_coulomb_share<dim>(stress, tangent / root);
+    return std::max(0.,
+                    (cohesion_ * factor - mean_normal(stress) * tangent) /
+                      (root * share));
   }
 
 

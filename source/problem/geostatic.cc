@@ -328,7 +328,7 @@ namespace talus
   /// The mass above the points, of all bodies, is computed once for all bodies
   /// with K0. Collective, also for ranks without points.
   template <int dim>
-  std::vector<Remark>
+  void
   set_geostatic_stress(Points<dim>                                   &points,
                        const std::vector<std::unique_ptr<Body<dim>>> &bodies,
                        const Materials<dim>                          &materials,
@@ -337,7 +337,6 @@ namespace talus
                        const MPI_Comm communicator)
   {
     std::vector<double> density, mass_above;
-    std::vector<Remark> notes;
     bool                is_first = true;
     for (unsigned int b = 0; b < bodies.size(); ++b)
       density.push_back(materials.of_body(b).submerged_density());
@@ -349,8 +348,7 @@ namespace talus
         check(bodies, bodies[b]->name(), gravity);
         if (is_first)
           mass_above = overburden(points, density, communicator);
-        is_first          = false;
-        double n_yielding = 0, largest = 0;
+        is_first = false;
         for (unsigned int p = 0; p < points.size(); ++p)
           if (points.data(points.body)[p] == b)
             {
@@ -366,11 +364,33 @@ namespace talus
                                    gravity,
                                    normal_of_layers(points, p, ground));
               store_stress<dim, double>(points, p, sigma);
-              const double strength =
+            }
+      }
+  }
+
+
+
+  template <int dim>
+  std::vector<Remark>
+  notes_on_stress_at_rest(const Points<dim>                             &points,
+                          const std::vector<std::unique_ptr<Body<dim>>> &bodies,
+                          const Materials<dim> &materials,
+                          const MPI_Comm        communicator)
+  {
+    std::vector<Remark> notes;
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        if (!bodies[b]->initial_state().has_stress_at_rest())
+          continue;
+        double n_yielding = 0, largest = 0;
+        for (unsigned int p = 0; p < points.size(); ++p)
+          if (points.data(points.body)[p] == b)
+            {
+              const double ratio =
+                shear_stress<dim>(load_stress<dim, double>(points, p)) /
                 materials.of_body(b).shear_strength(points, p);
-              const double tau = shear_stress<dim>(sigma);
-              n_yielding += (tau > (1. + 1e-9) * strength);
-              largest = std::max(largest, tau / strength);
+              n_yielding += (ratio > 1. + 1e-9);
+              largest = std::max(largest, ratio);
             }
         n_yielding = Utilities::MPI::sum(n_yielding, communicator);
         largest    = Utilities::MPI::max(largest, communicator);
@@ -410,6 +430,8 @@ namespace talus
   template decltype(normal_stress_at_rest<3>)   normal_stress_at_rest<3>;
   template decltype(set_geostatic_stress<2>)    set_geostatic_stress<2>;
   template decltype(set_geostatic_stress<3>)    set_geostatic_stress<3>;
+  template decltype(notes_on_stress_at_rest<2>) notes_on_stress_at_rest<2>;
+  template decltype(notes_on_stress_at_rest<3>) notes_on_stress_at_rest<3>;
   template decltype(notes_on_undrained_soil<2>) notes_on_undrained_soil<2>;
   template decltype(notes_on_undrained_soil<3>) notes_on_undrained_soil<3>;
 } // namespace talus

@@ -131,13 +131,23 @@ namespace talus
                            state.grid.domain_before_growth(),
                            state.communicator());
     set_pore_pressure(state);
-    auto on_stress =
-      set_geostatic_stress(points,
-                           bodies_.list(),
-                           materials,
-                           loading.share_of_gravity(0.) * loading.gravity(),
-                           Ground<dim>(state.grid.domain(), &obstacles),
-                           state.communicator());
+    set_geostatic_stress(points,
+                         bodies_.list(),
+                         materials,
+                         loading.share_of_gravity(0.) * loading.gravity(),
+                         Ground<dim>(state.grid.domain(), &obstacles),
+                         state.communicator());
+    add_remarks(set_preconsolidation(points,
+                                     bodies_.list(),
+                                     materials,
+                                     inputs_,
+                                     state.grid.domain_before_growth(),
+                                     loading.gravity(),
+                                     state.communicator()));
+    auto on_stress = notes_on_stress_at_rest(points,
+                                             bodies_.list(),
+                                             materials,
+                                             state.communicator());
     // Without a trigger a slide begins where the soil cannot bear its stress.
     for (Remark &remark : on_stress)
       if (trigger.end_time() <= 0. && pore_pressure.end_time() <= 0.)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/points/points_kernel.h>
 #include <talus/problem/mudline.h>
 #include <talus/problem/quantity_in_depth.h>
 #include <talus/problem/strength_field.h>
@@ -164,27 +165,190 @@ namespace talus
 
 
 
+  namespace
+  {
+    const std::string column_of_ratio = "overconsolidation ratio [-]";
+
+
+
+    /// Vertical effective stress of point @p p along @p down, Pa, compression
+    /// positive.
+    template <int dim>
+    double
+    vertical_stress(const Points<dim>    &points,
+                    const unsigned int    p,
+                    const Tensor<1, dim> &down)
+    {
+      const auto sigma = load_stress<dim, double>(points, p);
+      double     sum   = 0.;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          sum -= down[i] * down[j] *
+                 sigma[stress_index<dim>(std::min(i, j), std::max(i, j))];
+      return sum;
+    }
+
+
+
+    /// Throw ExcUser if the soil of point @p p has no effective stress, or a
+    /// @p ratio of less than 1 at the entry @p path.
+    template <int dim>
+    void
+    check_consolidation(const Points<dim> &points,
+                        const unsigned int p,
+                        const std::string &body,
+                        const std::string &path,
+                        const double       ratio)
+    {
+      const auto x = load_place(points, points.initial_position, p);
+      AssertThrow(mean_normal(load_stress<dim, double>(points, p)) < 0.,
+                  ExcUser(text("The soil of the body '",
+                               body,
+                               "' has no effective stress at (",
+                               x,
+                               ") m, and modified Cam clay has no stiffness "
+                               "without it. Give 'Bodies/",
+                               body,
+                               "/K0', or less 'Excess pore pressure'.")));
+      AssertThrow(ratio >= 1.,
+                  ExcUser(text(path,
+                               " is ",
+                               ratio,
+                               " at (",
+                               x,
+                               ") m, but the largest stress of the past cannot "
+                               "be less than that of today. Give 1 or more.")));
+    }
+
+
+
+    /// Remark on undrained shear strengths from @p least to @p largest, Pa.
+    Remark
+    note_of_strength(const std::string  &body,
+                     const StrengthRange range,
+                     const StrengthRange ratio)
+    {
+      return {text(std::setprecision(4),
+                   "the undrained shear strength in plane strain is from ",
+                   range.least,
+                   " to ",
+                   range.largest,
+                   " Pa, ",
+                   ratio.least,
+                   " to ",
+                   ratio.largest,
+                   " times the vertical effective stress."),
+              Severity::information,
+              "body '" + body + "'"};
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<Remark>
+  set_preconsolidation(Points<dim>                                   &points,
+                       const std::vector<std::unique_ptr<Body<dim>>> &bodies,
+                       Materials<dim>                                &materials,
+                       const Inputs<dim>                             &inputs,
+                       const Box<dim>                                &domain,
+                       const Tensor<1, dim>                          &gravity,
+                       const MPI_Comm communicator)
+  {
+    const Mudline<dim>  mudline = mudline_of(bodies, domain);
+    Tensor<1, dim>      down;
+    std::vector<Remark> notes;
+    down[1] = 1.;
+    if (gravity.norm() > 0.)
+      down = gravity / gravity.norm();
+    materials.use_initial_pressure(points, communicator);
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        const MaterialModel<dim> &material = materials.of_body(b);
+        if (material.overconsolidation_ratio() == nullptr)
+          continue;
+        const std::string path =
+          "'" + material.section().substr(1) + "/Overconsolidation ratio'";
+        const QuantityInDepth<dim> field(path,
+                                         *material.overconsolidation_ratio(),
+                                         column_of_ratio,
+                                         inputs,
+                                         mudline);
+        StrengthRange              range, ratios;
+        for (unsigned int p = 0; p < points.size(); ++p)
+          if (points.data(points.body)[p] == b)
+            {
+              const auto   x = load_place(points, points.initial_position, p);
+              const double ratio = field.at(x);
+              check_consolidation(points, p, bodies[b]->name(), path, ratio);
+              const double vertical = vertical_stress(points, p, down);
+              const double strength =
+                material.consolidate(points, p, vertical, ratio);
+              range.include(strength);
+              ratios.include(strength / vertical);
+            }
+        notes.push_back(note_of_strength(bodies[b]->name(),
+                                         over_ranks(range, communicator),
+                                         over_ranks(ratios, communicator)));
+      }
+    return notes;
+  }
+
+
+
+  namespace
+  {
+    /// Add the table that @p words name, if any, of @p quantity of the
+    /// @p material.
+    template <int dim>
+    void
+    add_table(const MaterialModel<dim>         &material,
+              const std::string                &quantity,
+              const std::string                &column,
+              const std::string                &words,
+              const std::filesystem::path      &folder,
+              std::map<std::string, InputFile> &tables)
+    {
+      const std::string table = name_of_table(words);
+      if (table.empty())
+        return;
+      const std::string section = material.section();
+      const std::string name =
+        quantity + " of " + section.substr(section.rfind('/') + 1);
+      tables[name] = {name,
+                      "table",
+                      folder / table,
+                      table_in_depth(folder / table, column).checksum()};
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::vector<InputFile>
   tables_of_strength(const Materials<dim>        &materials,
                      const unsigned int           n_bodies,
                      const std::filesystem::path &folder)
   {
-    std::map<std::string, InputFile> tables; // by material
+    std::map<std::string, InputFile> tables; // by name
     for (unsigned int b = 0; b < n_bodies; ++b)
-      if (const auto *strength = materials.of_body(b).undrained_strength())
-        if (const std::string table = name_of_table(strength->words());
-            !table.empty())
-          {
-            const std::string section = materials.of_body(b).section();
-            const std::string name    = section.substr(section.rfind('/') + 1);
-            const auto        path    = folder / table;
-            tables[name]              = {
-                           "strength of " + name,
-                           "table",
-                           path,
-                           table_in_depth(path, column_of_strength).checksum()};
-          }
+      {
+        const MaterialModel<dim> &law = materials.of_body(b);
+        if (const auto *strength = law.undrained_strength())
+          add_table(law,
+                    "strength",
+                    column_of_strength,
+                    strength->words(),
+                    folder,
+                    tables);
+        if (const auto *ratio = law.overconsolidation_ratio())
+          add_table(law,
+                    "overconsolidation ratio",
+                    column_of_ratio,
+                    *ratio,
+                    folder,
+                    tables);
+      }
     std::vector<InputFile> result;
     for (const auto &[name, table] : tables)
       result.push_back(table);
@@ -195,6 +359,8 @@ namespace talus
 
   template decltype(set_undrained_strength<2>) set_undrained_strength<2>;
   template decltype(set_undrained_strength<3>) set_undrained_strength<3>;
+  template decltype(set_preconsolidation<2>)   set_preconsolidation<2>;
+  template decltype(set_preconsolidation<3>)   set_preconsolidation<3>;
   template decltype(tables_of_strength<2>)     tables_of_strength<2>;
   template decltype(tables_of_strength<3>)     tables_of_strength<3>;
 } // namespace talus

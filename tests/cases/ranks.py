@@ -189,6 +189,13 @@ class Ranks(Runs):
         for n_ranks in (2, 4):
             self.assert_same(self.run_on(n_ranks, settings, file), alone)
 
+        # A slope of undrained clay, whose stiffness is that of its stress.
+        slope = TERSE + BALANCE + [
+            "Stages=dynamics", "End time=4", "Grid/Cell size=3", "Trigger/Duration=1"]
+        alone = self.run_on(1, slope, "sediment-slope.prm")
+        self.assertGreater(alone["maximum speed [m/s]"][-1], 0.05)
+        self.assert_same(self.run_on(2, slope, "sediment-slope.prm"), alone)
+
     def test_obstacles(self):
         """A seabed through a mesh that changes; a pipe that moves."""
         slide = "landslide-inclined.prm"

@@ -36,6 +36,7 @@ CASES = {
     "pipe-on-springs": ["Grid/Cell size=1.2", "End time=12"],
     "pipeline": ["Grid/Cell size=1.2", "End time=12"],
     "sand-slope": ["Grid/Cell size=4", "End time=16"],
+    "sediment-slope": ["Grid/Cell size=4", "End time=16"],
     "slab-failure": ["Grid/Cell size=2", "End time=3"],
     "slope": ["Grid/Cell size=10", "End time=50"],
     "slope-3d": ["Grid/Cell size=40", "End time=30"],

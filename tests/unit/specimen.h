@@ -2,6 +2,7 @@
 #ifndef talus_tests_unit_specimen_h
 #define talus_tests_unit_specimen_h
 
+#include <talus/base/errors.h>
 #include <talus/materials/material_model.h>
 #include <talus/points/points_kernel.h>
 
@@ -226,6 +227,22 @@ namespace talus
           << "\nset Density = 600\n"
           << more;
       return out.str();
+    }
+
+    /// Parameters by which the @p law has the moduli without stress, too.
+    std::string
+    parameters_of(const std::string &law) const
+    {
+      return law != "modified Cam clay"
+               ? parameters()
+               : text(std::setprecision(17),
+                      "set Attraction = 1e5\nset Density = 600"
+                      "\nset Slope of compression line = ",
+                      1e6 / bulk,
+                      "\nset Slope of swelling line = ",
+                      2e5 / bulk,
+                      "\nset Poisson's ratio = ",
+                      nu);
     }
   };
 

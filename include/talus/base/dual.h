@@ -152,6 +152,23 @@ namespace talus
       return a.chain(v, v);
     }
   };
+
+
+
+  /// Value without derivatives; numbers of other kinds have none.
+  template <unsigned int n>
+  double
+  value_of(const Dual<n> &x)
+  {
+    return x.value;
+  }
+
+  template <typename Number>
+  Number
+  value_of(const Number &x)
+  {
+    return x;
+  }
 } // namespace talus
 
 #endif

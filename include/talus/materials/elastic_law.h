@@ -13,7 +13,8 @@ namespace talus
   class ElasticLaw : public MaterialModel<dim>
   {
   public:
-    ElasticLaw(const std::string &section);
+    /// Declare Poisson's ratio and, if @p has_young_modulus, Young's modulus.
+    ElasticLaw(const std::string &section, bool has_young_modulus = true);
 
     /// Throw ExcUser unless E > 0 and -1 < nu <= 0.49999, so that elastic
     /// moduli are positive and finite.
@@ -43,11 +44,24 @@ namespace talus
     Moduli
     moduli() const;
 
+    double
+    poisson_ratio() const
+    {
+      return poisson_ratio_;
+    }
+
     /// Young's modulus, Pa.
     virtual double
     young_modulus() const
     {
       return young_modulus_;
+    }
+
+    /// Bulk modulus, Pa, that an undrained Poisson's ratio refers to.
+    virtual double
+    bulk_modulus_for_water() const
+    {
+      return moduli().bulk;
     }
 
   private:

@@ -3,6 +3,7 @@
 #define talus_materials_material_model_h
 
 #include <talus/base/remark.h>
+#include <talus/base/state_list.h>
 #include <talus/materials/pore_water.h>
 #include <talus/materials/undrained_strength.h>
 #include <talus/points/points.h>
@@ -82,6 +83,38 @@ namespace talus
     {
       return nullptr;
     }
+
+    /// Overconsolidation ratio as given by the user; null for laws without a
+    /// preconsolidation pressure, to be set by consolidate() for new points.
+    virtual const std::string *
+    overconsolidation_ratio() const
+    {
+      return nullptr;
+    }
+
+    /// Set the preconsolidation pressure of point @p p from its effective
+    /// stress, with @p vertical_stress, Pa, compression positive, and the
+    /// overconsolidation @p ratio there. Returns the undrained shear strength
+    /// that follows, Pa.
+    virtual double
+    consolidate(Points<dim> & /*points*/,
+                unsigned int /*p*/,
+                double /*vertical_stress*/,
+                double /*ratio*/) const
+    {
+      return 0.;
+    }
+
+    /// Use the @p largest mean effective stress of the soil at the start, Pa,
+    /// for the stiffness of the water.
+    virtual void
+    use_initial_pressure(double /*largest*/)
+    {}
+
+    /// Add the state of the law besides the columns of the points.
+    virtual void
+    list_state(StateList & /*list*/)
+    {}
 
     /// Throw ExcUser if the law does not allow undrained shear strengths in the
     /// range.

@@ -11,6 +11,12 @@
 
 namespace talus
 {
+  /// Range of the soil of all ranks. Collective.
+  StrengthRange
+  over_ranks(const StrengthRange &range, MPI_Comm communicator);
+
+
+
   /// Name of a material and of its constitutive law.
   struct MaterialName
   {
@@ -121,6 +127,19 @@ namespace talus
       for (const auto &model : models_)
         result.push_back(model->note_on_safety());
       return joined(result);
+    }
+
+    /// Tell all laws the largest mean effective stress of their points, Pa, at
+    /// the start. Collective.
+    void
+    use_initial_pressure(const Points<dim> &points, MPI_Comm communicator);
+
+    /// See MaterialModel::list_state().
+    void
+    list_state(StateList &list)
+    {
+      for (const auto &model : models_)
+        model->list_state(list);
     }
 
     /// Tell all laws the largest edge of cells with soil, m.

@@ -76,6 +76,19 @@ namespace talus
 
 
 
+  /// Share of sqrt(s:s/2) that is mohr_coulomb_shear() at the Lode angle of
+  /// @p stress [-]; 1 without shear.
+  template <int dim>
+  double
+  mohr_coulomb_share(const Stress<dim, double> &stress, const double sine)
+  {
+    const auto   s = add_mean(stress, -mean_normal(stress));
+    const double t = std::sqrt(0.5 * contract(s, s));
+    return t > 0. ? mohr_coulomb_shear<dim, double>(s, t, sine) / t : 1.;
+  }
+
+
+
   /// Soil with friction: Mohr-Coulomb's yield criterion, exact in plane strain,
   /// with radial flow of the deviator and a dilation that in plane strain is
   /// d eps_v/d gamma_max = sin(psi), the potential of Drucker and Prager. The

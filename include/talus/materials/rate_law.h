@@ -35,9 +35,10 @@ namespace talus
     static constexpr bool is_plastic = !std::is_same_v<FlowRule, NoFlow>;
 
     /// Construct the law. @p plastic_variable is the name of the column of the
-    /// internal variable [-]; empty for elastic laws.
+    /// internal variable, never negative, in @p unit; empty for elastic laws.
     RateLaw(const std::string &section,
-            const std::string &plastic_variable = "");
+            const std::string &plastic_variable = "",
+            const std::string &unit             = "-");
 
     void
     add_columns(Points<dim> &points) override;
@@ -81,8 +82,7 @@ namespace talus
     }
 
   protected:
-    /// Variable on which the strength of point @p p depends [-]; 0 for elastic
-    /// laws.
+    /// Variable on which the strength of point @p p depends; 0 for elastic laws.
     double
     softening(const Points<dim> &points, const unsigned int p) const;
 
@@ -107,7 +107,7 @@ namespace talus
     strength_of(const Points<dim> &points) const;
 
   private:
-    std::string  name_of_plastic_variable_;
+    std::string  name_of_plastic_variable_, unit_of_plastic_variable_;
     unsigned int plastic_variable_ = dealii::numbers::invalid_unsigned_int;
   };
 } // namespace talus

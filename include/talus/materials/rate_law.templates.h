@@ -22,9 +22,11 @@ namespace talus
 
   template <int dim, typename FlowRule>
   RateLaw<dim, FlowRule>::RateLaw(const std::string &section,
-                                  const std::string &plastic_variable)
-    : ElasticLaw<dim>(section)
+                                  const std::string &plastic_variable,
+                                  const std::string &unit)
+    : ElasticLaw<dim>(section, !is_stiffened_by_pressure<FlowRule>)
     , name_of_plastic_variable_(plastic_variable)
+    , unit_of_plastic_variable_(unit)
   {}
 
 
@@ -35,7 +37,7 @@ namespace talus
   {
     if (is_plastic)
       plastic_variable_ = points.add_column(name_of_plastic_variable_,
-                                            "-",
+                                            unit_of_plastic_variable_,
                                             1,
                                             Inheritance::copied);
   }
@@ -141,14 +143,17 @@ namespace talus
     const auto     work          = workspace.view(begin, end);
     const Moduli   moduli_of_law = this->moduli();
     const FlowRule rule          = flow_rule(infinitely_slow);
-    const auto     strength_at   = strength_of(points);
+    const auto     strengths     = strength_of(points);
     for (unsigned int p = begin; p < end; ++p)
       {
         const auto strain =
           small_strain_increment(load_independent_gradient(work, p));
-        const auto          strength = strength_at(p, double());
-        const auto          moduli   = moduli_of_point(moduli_of_law, strength);
-        const auto          before   = load_stress<dim, double>(points, p);
+        auto before   = load_stress<dim, double>(points, p);
+        auto strength = strengths(p, double());
+        if constexpr (is_stiffened_by_pressure<FlowRule>)
+          stiffen<dim>(rule, softening(points, p), strength, before);
+        const auto moduli =
+          moduli_of_step(moduli_of_law, rule, strength, strain.volumetric);
         Stress<dim, Number> sigma;
         std::copy(before.begin(), before.end(), sigma.begin());
 

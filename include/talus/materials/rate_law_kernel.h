@@ -90,6 +90,7 @@ namespace talus
   {
     Number              mean_before, mean_after;
     Stress<dim, Number> deviator_before, deviator_after;
+    Number              bulk; ///< bulk modulus of the step
   };
 
 
@@ -109,6 +110,7 @@ namespace talus
                                     const ModuliOf<Modulus>            &moduli)
   {
     StressStep<dim, Number> trial;
+    trial.bulk        = moduli.bulk;
     trial.mean_before = mean_normal(sigma);
     trial.mean_after  = trial.mean_before + moduli.bulk * strain.volumetric;
 
@@ -223,6 +225,55 @@ namespace talus
 
 
 
+  /// Whether moduli are those of the law times pressure() of the flow rule, a
+  /// function of the mean stress at the start of the step, and the bulk modulus
+  /// over a step is bulk_modulus() of the rule.
+  template <typename FlowRule>
+  constexpr bool is_stiffened_by_pressure = false;
+
+
+
+  /// Set the stiffness in @p strength from the stress @p sigma, Pa, at the start
+  /// of a step. A mean stress that the law does not allow, left by a mean over
+  /// points, becomes one that it does.
+  template <int dim, typename FlowRule, typename Number>
+  TALUS_ALWAYS_INLINE void
+  stiffen(const FlowRule        &flow_rule,
+          const Number          &plastic_variable,
+          PointStrength<Number> &strength,
+          Stress<dim, Number>   &sigma)
+  {
+    const Number mean   = mean_normal(sigma);
+    const auto   s      = add_mean(sigma, Number(-mean));
+    strength.stiffness  = max(flow_rule.pressure(mean),
+                             Number(0.5 * contract(s, s) / plastic_variable));
+    strength.compliance = 1. / strength.stiffness;
+    sigma = add_mean(s, Number(flow_rule.attraction - strength.stiffness));
+  }
+
+
+
+  /// Elastic moduli of point(s), Pa, in a step of the volumetric strain
+  /// @p volume [-].
+  template <typename FlowRule, typename Strength, typename Number>
+  TALUS_ALWAYS_INLINE auto
+  moduli_of_step(const Moduli                  &moduli_of_law,
+                 const FlowRule                &flow_rule,
+                 const PointStrength<Strength> &strength,
+                 const Number                  &volume)
+  {
+    const auto moduli = moduli_of_point(moduli_of_law, strength);
+    if constexpr (is_stiffened_by_pressure<FlowRule>)
+      return ModuliOf<Number>{moduli.lambda,
+                              moduli.mu,
+                              flow_rule.bulk_modulus(strength.stiffness,
+                                                     volume)};
+    else
+      return moduli;
+  }
+
+
+
   /// Flow rule of elastic material.
   struct NoFlow
   {
@@ -302,13 +353,20 @@ namespace talus
                    const unsigned int                p,
                    RateLawTrial<dim, Number>        &trial)
   {
-    trial.strength   = step.strength(p, Number());
-    trial.moduli     = moduli_of_point(step.moduli, trial.strength);
+    auto sigma     = load_stress<dim, Number>(step.points, p);
+    trial.strength = step.strength(p, Number());
+    if constexpr (is_stiffened_by_pressure<FlowRule>)
+      stiffen<dim>(step.flow_rule,
+                   softening<Number>(step, p),
+                   trial.strength,
+                   sigma);
+    trial.moduli     = moduli_of_step(step.moduli,
+                                  step.flow_rule,
+                                  trial.strength,
+                                  trial.strain.volumetric);
     trial.compliance = 1. / step.moduli.mu * trial.strength.compliance;
     trial.stress =
-      elastic_trial<dim, Number>(load_stress<dim, Number>(step.points, p),
-                                 trial.strain,
-                                 trial.moduli);
+      elastic_trial<dim, Number>(sigma, trial.strain, trial.moduli);
   }
 
 
@@ -425,7 +483,7 @@ namespace talus
         soften(step, p, flow.increment, trial.strength);
         flow_plastically(step.points, p, trial, flow);
         if constexpr (is_iterative<FlowRule>)
-          if (!all(flow.increment >= 0.))
+          if (!all(softening<Number>(step, p) >= 0.))
             return false;
       }
     return all(trial.motion.volume_after > 0.);

@@ -4,6 +4,8 @@
 
 #include <talus/materials/strength_variation.h>
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -63,7 +65,14 @@ namespace talus
   /// Smallest and largest undrained shear strength of some soil, Pa.
   struct StrengthRange
   {
-    double least, largest;
+    double least = std::numeric_limits<double>::infinity(), largest = 0.;
+
+    void
+    include(const double strength)
+    {
+      least   = std::min(least, strength);
+      largest = std::max(largest, strength);
+    }
   };
 } // namespace talus
 

@@ -47,11 +47,10 @@ namespace talus
   ///   s_nn = g_n M n_y + u,  s_tt = s_zz = K0 s_nn,  s_tn = g_t M n_y,
   /// effective with the excess pore pressure u of the points,
   /// in equilibrium in level ground and in an infinite slope; on the bottom of
-  /// the mesh also on the grid, down to round-off. Returns notes for the log on
-  /// stress above the strength. Throws ExcUser if a body is displaced or there
-  /// is no gravity. Collective.
+  /// the mesh also on the grid, down to round-off. Throws ExcUser if a body is
+  /// displaced or there is no gravity. Collective.
   template <int dim>
-  std::vector<Remark>
+  void
   set_geostatic_stress(Points<dim>                                   &points,
                        const std::vector<std::unique_ptr<Body<dim>>> &bodies,
                        const Materials<dim>                          &materials,
@@ -59,6 +58,13 @@ namespace talus
                        const Ground<dim>                             &ground,
                        MPI_Comm communicator);
 
+  /// Return remarks on K0 stress above the strength. Collective.
+  template <int dim>
+  std::vector<Remark>
+  notes_on_stress_at_rest(const Points<dim>                             &points,
+                          const std::vector<std::unique_ptr<Body<dim>>> &bodies,
+                          const Materials<dim> &materials,
+                          MPI_Comm              communicator);
 
 
   /// Return notes on bodies of undrained soil without stress at the start.

@@ -173,6 +173,7 @@ namespace talus
     list_state(StateList &list)
     {
       inputs_.list_state(list);
+      materials.list_state(list);
       loading.list_state(list);
       obstacles.list_state(list);
       interactions.list_state(list);

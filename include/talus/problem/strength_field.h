@@ -61,8 +61,25 @@ namespace talus
 
 
 
-  /// Return the tables in @p folder for the strengths of the materials of
-  /// @p n_bodies bodies, each table once.
+  /// Set the preconsolidation pressure of all points of laws that have one, from
+  /// the effective stress at the start: along @p gravity, m/s^2, it was the
+  /// overconsolidation ratio times as large. Returns the range of undrained
+  /// shear strengths that follows. Throws ExcUser if soil has no effective
+  /// stress, or the ratio is less than 1. Collective.
+  template <int dim>
+  std::vector<Remark>
+  set_preconsolidation(Points<dim>                                   &points,
+                       const std::vector<std::unique_ptr<Body<dim>>> &bodies,
+                       Materials<dim>                                &materials,
+                       const Inputs<dim>                             &inputs,
+                       const Box<dim>                                &domain,
+                       const dealii::Tensor<1, dim>                  &gravity,
+                       MPI_Comm communicator);
+
+
+
+  /// Return the tables in @p folder for the strengths and the overconsolidation
+  /// ratios of the materials of @p n_bodies bodies, each table once.
   template <int dim>
   std::vector<InputFile>
   tables_of_strength(const Materials<dim>        &materials,

@@ -4,6 +4,7 @@
 
 #include <talus/grid/grid.h>
 #include <talus/transfer/box_rule.h>
+#include <talus/transfer/weights_kernel.h>
 
 #include <vector>
 
@@ -57,6 +58,23 @@ namespace talus
                    unsigned int                  c,
                    unsigned int                  p,
                    std::vector<NodeWeight<dim>> &weights);
+
+
+  /// Weights of the box of point @p p at the four nodes of the patch of its
+  /// cell along axis @p d [-].
+  template <int dim>
+  TALUS_ALWAYS_INLINE std::array<double, 4>
+                      weights_along_axis(const Points<dim> &points,
+                                         const BoxShape    &shape,
+                                         const Cell<dim>   &cell,
+                                         const unsigned int d,
+                                         const unsigned int p)
+  {
+    return axis_weights(
+             (points.data(points.position, d)[p] - cell.lower[d]) / cell.size,
+             half_length_in_cells<dim>(points, shape, d, p, 1. / cell.size))
+      .value;
+  }
 } // namespace talus
 
 #endif

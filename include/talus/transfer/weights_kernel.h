@@ -73,23 +73,6 @@ namespace talus
     return w;
   }
 
-
-
-  /// Weights of the box of point @p p at the four nodes of the patch of its
-  /// cell along axis @p d [-].
-  template <int dim, typename Columns, typename Cell>
-  TALUS_ALWAYS_INLINE std::array<double, 4>
-                      weights_along_axis(const Columns     &points,
-                                         const BoxShape    &shape,
-                                         const Cell        &cell,
-                                         const unsigned int d,
-                                         const unsigned int p)
-  {
-    return axis_weights(
-             (points.data(points.position, d)[p] - cell.lower[d]) / cell.size,
-             half_length_in_cells<dim>(points, shape, d, p, 1. / cell.size))
-      .value;
-  }
 } // namespace talus
 
 #endif

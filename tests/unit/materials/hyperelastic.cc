@@ -259,10 +259,10 @@ TEST(WaveSpeed, IsThatOfTheUndeformedMaterial)
   const double c = std::sqrt((rubber.lambda + 2. * rubber.mu) / 600.);
   for (const std::string &name : material_names<2>())
     {
-      EXPECT_NEAR(Specimen<2>(name, rubber.parameters()).wave_speed(),
+      EXPECT_NEAR(Specimen<2>(name, rubber.parameters_of(name)).wave_speed(),
                   c,
                   1e-13 * c);
-      EXPECT_NEAR(Specimen<3>(name, rubber.parameters()).wave_speed(),
+      EXPECT_NEAR(Specimen<3>(name, rubber.parameters_of(name)).wave_speed(),
                   c,
                   1e-13 * c);
     }

@@ -16,8 +16,8 @@ namespace
   check_batch(const std::string &name)
   {
     constexpr unsigned int n = 11;
-    Specimen<dim>          batch(name, paper.parameters(), n);
-    Specimen<dim>          single(name, paper.parameters(), n);
+    Specimen<dim>          batch(name, paper.parameters_of(name), n);
+    Specimen<dim>          single(name, paper.parameters_of(name), n);
     for (Specimen<dim> *soil : {&batch, &single})
       {
         std::mt19937 random(2);
@@ -181,7 +181,7 @@ TEST(Materials, PointsTurnedInsideOutAreReported)
 {
   for (const std::string &name : material_names<2>())
     {
-      Specimen<2> soil(name, paper.parameters(), 9);
+      Specimen<2> soil(name, paper.parameters_of(name), 9);
       for (unsigned int p = 0; p < 9; ++p)
         soil.set_increment(Matrix<2, double>{}, p);
       soil.set_increment({{{{{-1.5, 0.}}, {{0., 0.}}}}}, 4);

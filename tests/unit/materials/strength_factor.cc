@@ -61,10 +61,11 @@ TEST(StrengthFactor, WhoHasAStrength)
 {
   for (const std::string &name : material_names<2>())
     {
-      Specimen<2> soil(name, paper.parameters());
+      Specimen<2> soil(name, paper.parameters_of(name));
       const bool  is_cohesive =
         name == "von Mises" || name == "Bingham" || name == "Herschel-Bulkley";
-      const bool has_strength = is_cohesive || name == "Mohr-Coulomb";
+      const bool has_strength =
+        is_cohesive || name == "Mohr-Coulomb" || name == "modified Cam clay";
       EXPECT_EQ(soil.law->has_strength(), has_strength) << name;
       if (has_strength && !is_cohesive)
         continue; // no undrained shear strength
@@ -144,7 +145,7 @@ TEST(StrengthFactor, OfSoilThatSoftensIsLimited)
                    ExcUser);
     }
   for (const std::string &name : material_names<2>())
-    EXPECT_TRUE(std::isinf(Specimen<2>(name, paper.parameters())
+    EXPECT_TRUE(std::isinf(Specimen<2>(name, paper.parameters_of(name))
                              .law->largest_strength_factor({s_u, s_u})))
       << name;
 }

@@ -139,12 +139,16 @@ namespace geostatic_test
     std::vector<Remark>
     set_stress(const Vector &gravity)
     {
-      return set_geostatic_stress(points,
-                                  bodies,
-                                  materials,
-                                  gravity,
-                                  Ground<2>(grid.domain(), &obstacles),
-                                  MPI_COMM_SELF);
+      set_geostatic_stress(points,
+                           bodies,
+                           materials,
+                           gravity,
+                           Ground<2>(grid.domain(), &obstacles),
+                           MPI_COMM_SELF);
+      return notes_on_stress_at_rest(points,
+                                     bodies,
+                                     materials,
+                                     MPI_COMM_SELF);
     }
 
     /// Call action(p, M) with the mass per area above point @p p, kg/m^2.
