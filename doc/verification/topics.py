@@ -55,7 +55,7 @@ PAGES = [
          ["LandslideFull", "LandslideFullUnsplit", "LandslideFourWay",
           "LandslideStretched", "LandslideCoarse", "LandslideUnsplit",
           "LandslideSimilarity",
-          "LandslideOfLayers", "Landslide3d"]),
+          "LandslideOfLayers", "LandslideUndrained", "Landslide3d"]),
         ("Numerical fracture and thin slides", ["HangingBlock", "ThinSlide"]),
         ("Merging", ["LandslideMerged"]),
         ("Shear and stretch",

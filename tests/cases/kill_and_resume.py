@@ -213,11 +213,22 @@ class SoilLeaves(Case):
 
 
 class PointsMerged(KillAndResume):
-    """Points that are split and merged in turn."""
+    """Points of undrained sand that are split and merged in turn."""
 
     N_KILLS = 6
     settings = SETTINGS + ["End time=3", "Splitting/Shear=ignored", "Splitting/Merge=true",
-                           "Splitting/Merge interval=20"]
+                           "Splitting/Merge interval=20", "Materials/Names=clay, sand",
+                           "Materials/sand/Law=Mohr-Coulomb", "Materials/sand/Density=600",
+                           "Materials/sand/Young's modulus=2e5",
+                           "Materials/sand/Friction angle=5",
+                           "Materials/sand/Dilatancy angle=-3",
+                           "Materials/sand/Dilation strain=0.5",
+                           "Materials/sand/Pore water/Drainage=undrained",
+                           "Materials/sand/Pore water/Largest suction=2e3",
+                           "Bodies/slide/Material=sand", "Bodies/slide/K0=1",
+                           "Excess pore pressure/Final=0.3*overburden",
+                           "Excess pore pressure/Duration=2",
+                           "Transfer/Scheme=filtered FLIP"]
 
     def finish(self, name):
         super().finish(name)

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 using namespace talus;
 using namespace talus::cases;
@@ -116,6 +117,40 @@ TEST(OnePoint, FrictionInPlaneStrainCompression)
              -StressOf(sample.points(), 0).yy,
              2000. * std::sqrt(3.),
              1e-5);
+}
+
+
+
+// At constant volume the dilation that fades, in all D = int of beta d(xi),
+// changes the mean effective stress by K D: s_u = (p'_0 + K D) sin(phi). Soil
+// that contracts by more than p'_0/K liquefies.
+TEST(OnePoint, UndrainedDilationThatFades)
+{
+  Verification gates("Simple shear of undrained sand, phi' = 30 degrees",
+                     "prm/verification/simple-shear.prm, psi that fades",
+                     "p'_0 + K int(beta d xi)");
+  for (const auto &[psi, fading, exact] :
+       {std::tuple{5., 0.02, 64533.6}, {-5., 0.02, 35466.4}, {-10., 0.05, 0.}})
+    {
+      Case<2> sample("verification/simple-shear.prm",
+                     {"End time=30",
+                      "Materials/Names=clay, sand",
+                      "Materials/sand/Law=Mohr-Coulomb",
+                      "Materials/sand/Density=600",
+                      "Materials/sand/Young's modulus=20e6",
+                      "Materials/sand/Poisson's ratio=0.3",
+                      text("Materials/sand/Dilatancy angle=", psi),
+                      text("Materials/sand/Dilation strain=", fading),
+                      "Materials/sand/Pore water/Drainage=undrained",
+                      "Bodies/soil/Initial stress=-1e5; -1e5; -1e5; 0",
+                      "Bodies/soil/Material=sand"});
+      advance_to(sample, 30.);
+      const StressOf s(sample.points(), 0);
+      const double   s_u = std::hypot(0.5 * (s.xx - s.yy), s.xy);
+      gates.at_most(text("s_u, error / p'_0, psi = ", psi, " degrees"),
+                    std::abs(s_u - exact) / 1e5,
+                    1e-3);
+    }
 }
 
 
