@@ -233,9 +233,10 @@ namespace talus
 
 
     /// Merge all columns of points @p p and @p q into @p p. Extensive columns
-    /// are summed. The stress is the mean weighted by volume (@p volume_share
-    /// of point p), so that internal forces at the nodes are kept; all further
-    /// columns are means weighted by mass (@p mass_share of point p).
+    /// are summed. Stress and pressures are means weighted by volume
+    /// (@p volume_share of point p), so that internal forces at the nodes are
+    /// kept; all further columns are means weighted by mass (@p mass_share of
+    /// point p).
     template <int dim>
     void
     join_columns(Points<dim>       &points,
@@ -247,7 +248,7 @@ namespace talus
       for (const Column &column : points.columns())
         {
           const double share =
-            (column.first == points.stress ? volume_share : mass_share);
+            (column.unit == "Pa" ? volume_share : mass_share);
           const bool is_sum = column.inheritance == Inheritance::divided;
           for (unsigned int c = 0; c < column.n_components; ++c)
             {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/materials/kinematics_kernel.h>
 #include <talus/materials/material_model.h>
 #include <talus/points/points_kernel.h>
 
@@ -86,6 +87,20 @@ namespace talus
   MaterialModel<dim>::shear_strength(const Points<dim> &, unsigned int) const
   {
     return std::numeric_limits<double>::infinity();
+  }
+
+
+
+  // Soil that has lost all strength bears no more than it has.
+  template <int dim>
+  double
+  MaterialModel<dim>::mobilized_strength(const Points<dim> &points,
+                                         const unsigned int p) const
+  {
+    const double strength = shear_strength(points, p);
+    return strength > 0.
+             ? shear_stress(load_stress<dim, double>(points, p)) / strength
+             : 1.;
   }
 
 

@@ -4,6 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -223,15 +224,24 @@ namespace talus
 
   namespace
   {
+    /// Append the largest excess pore pressure and pore pressure ratio.
+    /// Collective.
     template <int dim>
-    double
-    largest_pore_pressure(const Points<dim> &points,
-                          const MPI_Comm     communicator)
+    void
+    list_pore_pressure(const State<dim> &state, Quantities &list)
     {
-      double result = std::numeric_limits<double>::lowest();
+      const Points<dim>    &points = state.points;
+      std::array<double, 2> largest;
+      largest.fill(std::numeric_limits<double>::lowest());
       for (unsigned int p = 0; p < points.size(); ++p)
-        result = std::max(result, points.data(points.pore_pressure())[p]);
-      return Utilities::MPI::max(result, communicator);
+        {
+          largest[0] =
+            std::max(largest[0], points.data(points.pore_pressure())[p]);
+          largest[1] = std::max(largest[1], pore_pressure_ratio(points, p));
+        }
+      Utilities::MPI::max(largest, state.communicator(), largest);
+      list.push_back({"largest excess pore pressure", "Pa", largest[0]});
+      list.push_back({"largest pore pressure ratio", "-", largest[1]});
     }
   } // namespace
 
@@ -273,10 +283,7 @@ namespace talus
     list.push_back({"maximum speed", "m/s", maximum_speed(state)});
     list.push_back({"maximum speed of points", "m/s", sums.maximum_speed});
     if (state.points.have_pore_pressure())
-      list.push_back(
-        {"largest excess pore pressure",
-         "Pa",
-         largest_pore_pressure(state.points, state.communicator())});
+      list_pore_pressure(state, list);
     list.push_back({"mass", "kg", sums.mass});
     append_vector<dim>(list, "momentum", "kg m/s", sums.momentum);
   }

@@ -153,6 +153,12 @@ namespace talus
         return volume_of_points<dim, double>(points, p) /
                points.data(points.reference_volume)[p];
       }));
+      if (points.have_pore_pressure())
+        fields.push_back(scalar_field("pore pressure ratio",
+                                      "",
+                                      [&points](const unsigned int p) {
+                                        return pore_pressure_ratio(points, p);
+                                      }));
     }
 
 

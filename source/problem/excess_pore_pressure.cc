@@ -135,11 +135,11 @@ namespace talus
     check_weight(const Points<dim>         &points,
                  const std::string         &entry,
                  const std::vector<double> &u,
-                 const std::vector<double> &overburden,
                  const MPI_Comm             communicator)
     {
-      unsigned int at    = 0; // point of the largest ratio
-      const auto   ratio = [&](const unsigned int p) {
+      const double *const overburden = points.data(points.overburden());
+      unsigned int        at         = 0; // point of the largest ratio
+      const auto          ratio      = [&](const unsigned int p) {
         return u[p] / std::max(overburden[p], 1e-300);
       };
       for (unsigned int p = 1; p < u.size(); ++p)
@@ -171,11 +171,10 @@ namespace talus
 
   template <int dim>
   void
-  ExcessPorePressure<dim>::set(Points<dim>               &points,
-                               const std::vector<double> &overburden,
-                               const Inputs<dim>         &inputs,
-                               const Mudline<dim>        &mudline,
-                               const MPI_Comm             communicator) const
+  ExcessPorePressure<dim>::set(Points<dim>        &points,
+                               const Inputs<dim>  &inputs,
+                               const Mudline<dim> &mudline,
+                               const MPI_Comm      communicator) const
   {
     const auto values = [&](const std::string &entry,
                             const std::string &words) {
@@ -190,8 +189,8 @@ namespace talus
       for (unsigned int p = 0; p < points.size(); ++p)
         if (has_pressure_[points.data(points.body)[p]])
           u[p] = field.at(load_place(points, points.initial_position, p),
-                          overburden[p]);
-      check_weight(points, entry, u, overburden, communicator);
+                          points.data(points.overburden())[p]);
+      check_weight(points, entry, u, communicator);
       return u;
     };
     const auto now = values("Initial", initial_);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/materials/kinematics_kernel.h>
 #include <talus/points/points_kernel.h>
 #include <talus/problem/geostatic.h>
 #include <talus/transfer/box_rule.h>
@@ -285,22 +286,6 @@ namespace talus
 
 
 
-    /// Return sqrt(s:s/2) of the deviator s, Pa, comparable with the shear
-    /// strength.
-    template <int dim>
-    double
-    shear_stress(const Stress<dim, double> &sigma)
-    {
-      const double mean = (sigma[0] + sigma[1] + sigma[2]) / 3.;
-      double       sum  = 0;
-      for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
-        sum += c < 3 ? 0.5 * (sigma[c] - mean) * (sigma[c] - mean)
-                     : sigma[c] * sigma[c];
-      return std::sqrt(sum);
-    }
-
-
-
     /// Return a note, not an error: the first step returns the stress to the
     /// yield surface, but the soil starts out of balance.
     Remark
@@ -368,7 +353,7 @@ namespace talus
               store_stress<dim, double>(points, p, sigma);
               const double strength =
                 materials.of_body(b).shear_strength(points, p);
-              const double tau = shear_stress<dim>(sigma);
+              const double tau = shear_stress(sigma);
               n_yielding += (tau > (1. + 1e-9) * strength);
               largest = std::max(largest, tau / strength);
             }

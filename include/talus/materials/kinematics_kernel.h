@@ -102,6 +102,18 @@ namespace talus
 
 
 
+  /// Return the shear stress sqrt(s:s/2) of the deviator s, comparable with the
+  /// shear strength.
+  template <std::size_t n, typename Number>
+  TALUS_ALWAYS_INLINE Number
+  shear_stress(const std::array<Number, n> &sigma)
+  {
+    const auto s = add_mean(sigma, Number(-mean_normal(sigma)));
+    return sqrt(0.5 * contract(s, s));
+  }
+
+
+
   /// Half of the rotation of a step. In 2-D a symmetric tensor rotates by twice
   /// the angle of the axes, so the half rotation is stored as cosine and sine
   /// of the full angle.

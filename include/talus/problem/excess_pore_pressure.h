@@ -51,17 +51,13 @@ namespace talus
     tables(const std::filesystem::path &folder) const;
 
     /// Set u at the start and the change to come, from the initial places of
-    /// the points.
-    /// @param overburden effective stress at rest of each point without u,
-    ///   across the layers, Pa, compression positive
-    /// Throws ExcUser where u would be more than @p overburden: the soil would
-    /// float. Collective.
+    /// the points and their overburden. Throws ExcUser where u would be more
+    /// than the overburden: the soil would float. Collective.
     void
-    set(Points<dim>               &points,
-        const std::vector<double> &overburden,
-        const Inputs<dim>         &inputs,
-        const Mudline<dim>        &mudline,
-        MPI_Comm                   communicator) const;
+    set(Points<dim>        &points,
+        const Inputs<dim>  &inputs,
+        const Mudline<dim> &mudline,
+        MPI_Comm            communicator) const;
 
     /// Whether u changes from time @p before to time @p now, s.
     bool
