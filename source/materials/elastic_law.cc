@@ -71,7 +71,8 @@ namespace talus
   {
     return {pore_water_.stiffness(poisson_ratio_, moduli().bulk),
             pore_water_.largest_suction(),
-            moduli().bulk};
+            moduli().bulk,
+            pore_water_.consolidation()};
   }
 
 

@@ -4,7 +4,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -230,18 +229,19 @@ namespace talus
     void
     list_pore_pressure(const State<dim> &state, Quantities &list)
     {
-      const Points<dim>    &points = state.points;
-      std::array<double, 2> largest;
-      largest.fill(std::numeric_limits<double>::lowest());
+      const Points<dim> &points = state.points;
+      double             u = std::numeric_limits<double>::lowest(), ratio = u;
       for (unsigned int p = 0; p < points.size(); ++p)
         {
-          largest[0] =
-            std::max(largest[0], points.data(points.pore_pressure())[p]);
-          largest[1] = std::max(largest[1], pore_pressure_ratio(points, p));
+          u     = std::max(u, points.data(points.pore_pressure())[p]);
+          ratio = std::max(ratio, pore_pressure_ratio(points, p));
         }
-      Utilities::MPI::max(largest, state.communicator(), largest);
-      list.push_back({"largest excess pore pressure", "Pa", largest[0]});
-      list.push_back({"largest pore pressure ratio", "-", largest[1]});
+      list.push_back({"largest excess pore pressure",
+                      "Pa",
+                      Utilities::MPI::max(u, state.communicator())});
+      list.push_back({"largest pore pressure ratio",
+                      "-",
+                      Utilities::MPI::max(ratio, state.communicator())});
     }
   } // namespace
 

@@ -37,6 +37,14 @@ namespace talus
                   final_,
                   "Excess pore pressure in the end, given as 'Initial' [Pa]. "
                   "Empty: no change.");
+    add_parameter("Stage value",
+                  stage_value_,
+                  "Pressure in the stage 'strength reduction': 'initial', or "
+                  "'final' for the factor of safety after the change. The "
+                  "stages 'equilibrium' and 'dynamics' start from 'Initial' in "
+                  "any case.",
+                  this->prm,
+                  Patterns::Selection("initial|final"));
     add_parameter("Start time",
                   ramp_.start_time,
                   "Time at which the pressure begins to change [s].",
@@ -71,6 +79,11 @@ namespace talus
                 ExcUser("'Excess pore pressure/Start time' or 'Duration' is "
                         "given, but 'Final' is empty: the pressure does not "
                         "change. Give 'Final' or remove the times."));
+    AssertThrow(!final_.empty() || !is_final_in_stage(),
+                ExcUser("'Excess pore pressure/Stage value' is 'final', but "
+                        "'Final' is empty: no pressure is known for the stage "
+                        "'strength reduction'. Give 'Final', or use "
+                        "'initial'."));
     AssertThrow(final_.empty() || ramp_.start_time < end_time,
                 ExcUser(text("'Excess pore pressure/Start time' is ",
                              ramp_.start_time,
@@ -206,11 +219,8 @@ namespace talus
 
   template <int dim>
   void
-  ExcessPorePressure<dim>::update(Points<dim> &points,
-                                  const double before,
-                                  const double now) const
+  ExcessPorePressure<dim>::add(Points<dim> &points, const double grown) const
   {
-    const double        grown  = ramp_.progress(now) - ramp_.progress(before);
     const double *const change = points.data(change_);
     double *const       u      = points.data(points.pore_pressure());
     for (unsigned int p = 0; p < points.size(); ++p)
@@ -231,7 +241,10 @@ namespace talus
                 ramp_.end_time(),
                 " s the excess pore pressure changes to '",
                 final_,
-                "' Pa; static stages see the initial pressure.");
+                "' Pa; ",
+                is_final_in_stage()
+                  ? "the stage 'strength reduction' sees this pressure."
+                  : "static stages see the initial pressure.");
   }
 
 

@@ -12,6 +12,7 @@
 #include <talus/observers/obstacle_forces.h>
 #include <talus/observers/obstacles_output.h>
 #include <talus/observers/state_cells.h>
+#include <talus/problem/drainage.h>
 #include <talus/simulation/pace.h>
 #include <talus/simulation/run_remarks.h>
 #include <talus/simulation/shear_bands.h>
@@ -483,6 +484,9 @@ namespace talus
     log_.say(level, mesh_.description());
     for (const std::string &fact : problem_.facts())
       log_.say(level, fact);
+    problem_.add_remarks(notes_on_drainage(problem_.materials,
+                                           problem_.bodies().thickness(),
+                                           end_of_run()));
     for (const Remark &remark : problem_.remarks(state_.grid.cell_size()))
       log_.remark(remark);
     note_time_step(level);

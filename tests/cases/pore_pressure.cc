@@ -396,6 +396,37 @@ TEST(PorePressure, FactorOfSafetyOfSand)
 
 
 
+// Davis' factor does not depend on the path: the pressure that rises in soil at
+// rest gives the same as the pressure at the start. The slope fails at the
+// second pressure, and nothing is left of it afterwards.
+TEST(PorePressure, FactorOfSafetyAtTheEndOfTheRise)
+{
+  Verification gates("Infinite slope of sand, pressure at the end of the rise",
+                     "prm/" + sand,
+                     "Davis: (1 - r_u) sin(phi)/tan(slope), psi = 0");
+  for (const double r_u : {0.3, 0.8})
+    {
+      const StaticCase<2> at_end(
+        sand,
+        text("pore-sand-final-", r_u),
+        sand_slope(10., 30.) +
+          Overrides{"Strength reduction/Non-associated flow=Davis",
+                    "Excess pore pressure/Initial=0.1*overburden",
+                    text("Excess pore pressure/Final=", r_u, "*overburden"),
+                    "Excess pore pressure/Stage value=final"});
+      gates.near(text("factor of safety, r_u = ", r_u),
+                 at_end.factor_of_safety(),
+                 (1. - r_u) * std::sin(30. * per_degree) /
+                   std::tan(10. * per_degree),
+                 0.002);
+      const auto &points = at_end.points();
+      for (unsigned int p = 0; p < points.size(); ++p)
+        EXPECT_NEAR(pore_pressure_ratio(points, p), 0.1, 1e-12);
+    }
+}
+
+
+
 // Undrained, the mean effective stress stays in the end: m s_n sin(phi_F) = t
 // with m = (1 + 2 K0)/3.
 TEST(PorePressure, FactorOfSafetyOfUndrainedSand)

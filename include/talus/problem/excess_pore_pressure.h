@@ -68,7 +68,21 @@ namespace talus
 
     /// Add what u changes from time @p before to time @p now, s; see changes().
     void
-    update(Points<dim> &points, double before, double now) const;
+    update(Points<dim> &points, const double before, const double now) const
+    {
+      add(points, ramp_.progress(now) - ramp_.progress(before));
+    }
+
+    /// Whether the stage 'strength reduction' sees the pressure at the end.
+    bool
+    is_final_in_stage() const
+    {
+      return stage_value_ == "final";
+    }
+
+    /// Add the share @p grown of the whole change of u.
+    void
+    add(Points<dim> &points, double grown) const;
 
     /// Time after which u is constant, s.
     double
@@ -82,7 +96,7 @@ namespace talus
     note() const;
 
   private:
-    std::string              initial_, final_;
+    std::string              initial_, final_, stage_value_ = "initial";
     CosineRamp               ramp_;
     std::vector<std::string> names_of_bodies_;
 

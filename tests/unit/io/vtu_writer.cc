@@ -224,6 +224,23 @@ namespace
 
 
 
+  // Without weight there is no ratio.
+  TEST_F(VtuTest, PorePressureRatio)
+  {
+    Scene<2> s("0, 0", "8, 4");
+    s.points.add_pore_pressure();
+    add_points(s);
+    s.points.data(s.points.pore_pressure())[0] = 3.;
+    s.points.data(s.points.overburden())[0]    = 5.;
+    write_points(s, folder / "p.vtu");
+    const auto ratio =
+      read_vtu(folder / "p.vtu").values.at("pore pressure ratio");
+    EXPECT_EQ(ratio.at(0), 0.6f);
+    EXPECT_TRUE(std::isnan(ratio.at(1)));
+  }
+
+
+
   TEST_F(VtuTest, BoxesHoldTheirValuesOnce)
   {
     Scene<2> s("0, 0", "8, 4");
