@@ -3,7 +3,7 @@
 #include <talus/maps/column_sums.h>
 #include <talus/maps/pore_columns.h>
 #include <talus/observers/boxes.h>
-#include <talus/points/points_kernel.h>
+#include <talus/observers/pore_pressure_ratio.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -37,11 +37,12 @@ namespace talus
           action(batch.begin + share.item, share);
       });
     };
-    const double *const y = points.data(points.position, 1);
+    const auto          ratios = pore_pressure_ratio(points);
+    const double *const y      = points.data(points.position, 1);
     std::vector<double> depth(n, none); // of the base below y = 0, m
     for_each_share([&](const unsigned int p, const ColumnShare &share) {
       double &ratio = ratio_[share.column], &base = depth[share.column];
-      ratio = std::max(ratio, pore_pressure_ratio(points, p));
+      ratio = std::max(ratio, ratios[p]);
       base  = std::max(base, 0.5 * box_lengths(state, p)[1] - y[p]);
     });
     Utilities::MPI::max(ratio_, state.communicator(), ratio_);

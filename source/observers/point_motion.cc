@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/observers/point_motion.h>
+#include <talus/observers/pore_pressure_ratio.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -232,10 +233,9 @@ namespace talus
       const Points<dim> &points = state.points;
       double             u = std::numeric_limits<double>::lowest(), ratio = u;
       for (unsigned int p = 0; p < points.size(); ++p)
-        {
-          u     = std::max(u, points.data(points.pore_pressure())[p]);
-          ratio = std::max(ratio, pore_pressure_ratio(points, p));
-        }
+        u = std::max(u, points.data(points.pore_pressure())[p]);
+      for (const double r_u : pore_pressure_ratio(points))
+        ratio = std::max(ratio, r_u);
       list.push_back({"largest excess pore pressure",
                       "Pa",
                       Utilities::MPI::max(u, state.communicator())});

@@ -3,6 +3,7 @@
 #include <talus/io/vtu_writer.h>
 #include <talus/observers/boxes.h>
 #include <talus/observers/points_output.h>
+#include <talus/observers/pore_pressure_ratio.h>
 #include <talus/observers/state_cells.h>
 #include <talus/points/points_kernel.h>
 
@@ -154,11 +155,11 @@ namespace talus
                points.data(points.reference_volume)[p];
       }));
       if (points.have_pore_pressure())
-        fields.push_back(scalar_field("pore pressure ratio",
-                                      "",
-                                      [&points](const unsigned int p) {
-                                        return pore_pressure_ratio(points, p);
-                                      }));
+        fields.push_back(
+          scalar_field("pore pressure ratio",
+                       "",
+                       [ratio = pore_pressure_ratio(points)](
+                         const unsigned int p) { return ratio[p]; }));
     }
 
 

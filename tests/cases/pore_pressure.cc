@@ -4,7 +4,7 @@
 #include "static_case.h"
 
 #include <talus/base/errors.h>
-#include <talus/points/points_kernel.h>
+#include <talus/observers/pore_pressure_ratio.h>
 
 #include <gtest/gtest.h>
 
@@ -420,8 +420,8 @@ TEST(PorePressure, FactorOfSafetyAtTheEndOfTheRise)
                    std::tan(10. * per_degree),
                  0.002);
       const auto &points = at_end.points();
-      for (unsigned int p = 0; p < points.size(); ++p)
-        EXPECT_NEAR(pore_pressure_ratio(points, p), 0.1, 1e-12);
+      for (const double ratio : pore_pressure_ratio(points))
+        EXPECT_NEAR(ratio, 0.1, 1e-12);
     }
 }
 

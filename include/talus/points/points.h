@@ -10,7 +10,6 @@
 #include <deal.II/base/point.h>
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -446,18 +445,6 @@ namespace talus
     return dealii::Point<dim>(load_vector(points, column, p));
   }
 
-
-
-  /// Return the pore pressure ratio r_u of point @p p [-]: the excess pore
-  /// pressure over the overburden at rest; not a number without weight.
-  template <int dim>
-  inline double
-  pore_pressure_ratio(const Points<dim> &points, const unsigned int p)
-  {
-    const double weight = points.data(points.overburden())[p];
-    return weight > 0. ? points.data(points.pore_pressure())[p] / weight
-                       : std::numeric_limits<double>::quiet_NaN();
-  }
 } // namespace talus
 
 #endif

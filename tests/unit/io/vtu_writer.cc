@@ -232,6 +232,7 @@ namespace
     add_points(s);
     s.points.data(s.points.pore_pressure())[0] = 3.;
     s.points.data(s.points.overburden())[0]    = 5.;
+    s.sort();
     write_points(s, folder / "p.vtu");
     const auto ratio =
       read_vtu(folder / "p.vtu").values.at("pore pressure ratio");

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_observers_pore_pressure_ratio_h
+#define talus_observers_pore_pressure_ratio_h
+
+#include <talus/points/points_kernel.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace talus
+{
+  /// Return the pore pressure ratio r_u at each point [-]: the excess pore
+  /// pressure over the overburden at rest. Both are means over the cell, as the
+  /// pressure of undrained soil does not vary within a cell. Not a number
+  /// without weight, and at points that are not sorted.
+  template <int dim>
+  inline std::vector<double>
+  pore_pressure_ratio(const Points<dim> &points)
+  {
+    std::vector<double> result(points.size(),
+                               std::numeric_limits<double>::quiet_NaN());
+    points.for_each_cell(points.all(), [&](const Batch &cell) {
+      double u = 0, weight = 0; // times volume
+      for (unsigned int p = cell.begin; p < cell.end; ++p)
+        {
+          const double V = volume_of_points<dim, double>(points, p);
+          u += V * points.data(points.pore_pressure())[p];
+          weight += V * points.data(points.overburden())[p];
+        }
+      if (weight > 0.)
+        std::fill(&result[cell.begin],
+                  &result[cell.begin] + (cell.end - cell.begin),
+                  u / weight);
+    });
+    return result;
+  }
+} // namespace talus
+
+#endif
