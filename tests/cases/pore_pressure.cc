@@ -396,14 +396,14 @@ TEST(PorePressure, FactorOfSafetyOfSand)
 
 
 
-// Davis' factor does not depend on the path: the pressure that rises in soil at
-// rest gives the same as the pressure at the start. The slope fails at the
-// second pressure, and nothing is left of it afterwards.
+// Davis' factor does not depend on the path: a pressure that rises in soil at
+// rest gives the same factor as a pressure at the start. The slope fails at the
+// second pressure. Afterwards the soil has the pressure at the start.
 TEST(PorePressure, FactorOfSafetyAtTheEndOfTheRise)
 {
   Verification gates("Infinite slope of sand, pressure at the end of the rise",
                      "prm/" + sand,
-                     "Davis: (1 - r_u) sin(phi)/tan(slope), psi = 0");
+                     "Davis with psi = 0: sin(phi_F) = t/(s_n - u)");
   for (const double r_u : {0.3, 0.8})
     {
       const StaticCase<2> at_end(
@@ -416,8 +416,8 @@ TEST(PorePressure, FactorOfSafetyAtTheEndOfTheRise)
                     "Excess pore pressure/Stage value=final"});
       gates.near(text("factor of safety, r_u = ", r_u),
                  at_end.factor_of_safety(),
-                 (1. - r_u) * std::sin(30. * per_degree) /
-                   std::tan(10. * per_degree),
+                 std::tan(30. * per_degree) /
+                   std::tan(std::asin(std::tan(10. * per_degree) / (1. - r_u))),
                  0.002);
       const auto &points = at_end.points();
       for (const double ratio : pore_pressure_ratio(points))
