@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
-#include <talus/materials/kinematics_kernel.h>
 #include <talus/materials/material_model.h>
 #include <talus/points/points_kernel.h>
 

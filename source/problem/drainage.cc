@@ -17,8 +17,7 @@ namespace talus
       {
         const std::string        subject = "body '" + bodies[b].body + "'";
         const WaterResponse<dim> water   = materials.of_body(b).pore_water();
-        const bool               is_undrained = water.stiffness > 0.;
-        if (is_undrained)
+        if (water.stiffness > 0.)
           notes.emplace_back(text(std::setprecision(4),
                                   "the pore water has a stiffness K_f of ",
                                   water.stiffness,
@@ -31,30 +30,33 @@ namespace talus
         if (way == 0.)
           continue;
         const double h = bodies[b].cell_size, thickness = bodies[b].n_cells * h;
-        const bool stays    = way<h, crosses = way> thickness;
-        const bool is_right = is_undrained ? stays : crosses;
-        notes.emplace_back(
-          text(std::setprecision(3),
-               "in ",
-               duration,
-               " s water moves ",
-               way,
-               " m (c_v ",
-               water.consolidation,
-               " m^2/s), a cell is ",
-               h,
-               " m and the soil ",
-               thickness,
-               " m thick: ",
-               stays     ? "undrained is right"
-               : crosses ? "drained is right"
-                         : "run both drained and undrained, the ends of what "
-                           "is possible",
-               is_right ? "."
-                        : text(", but 'Pore water/Drainage' is '",
-                               is_undrained ? "undrained'." : "drained'.")),
-          is_right ? Severity::information : Severity::look,
-          subject);
+        const std::string given =
+          water.stiffness > 0. ? "undrained" : "drained";
+        const std::string right = way < h ? "undrained"
+                                  : way > thickness
+                                    ? "drained"
+                                    : "neither drained nor undrained";
+        notes.emplace_back(text(std::setprecision(3),
+                                "in ",
+                                duration,
+                                " s water moves ",
+                                way,
+                                " m (c_v ",
+                                water.consolidation,
+                                " m^2/s), a cell is ",
+                                h,
+                                " m and the soil ",
+                                thickness,
+                                " m thick: ",
+                                right,
+                                " is right",
+                                given == right
+                                  ? "."
+                                  : ", but 'Pore water/Drainage' is '" + given +
+                                      "'. Compare with a run of the other."),
+                           given == right ? Severity::information
+                                          : Severity::look,
+                           subject);
       }
     return notes;
   }

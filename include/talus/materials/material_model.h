@@ -75,7 +75,7 @@ namespace talus
     virtual double
     shear_strength(const Points<dim> &points, unsigned int p) const;
 
-    /// Shear stress sqrt(s:s/2) at point @p p over shear_strength() [-]: 1 where
+    /// Shear stress sqrt(s:s/2) at point @p p over shear_strength() [-]: 1 if
     /// soil yields, more by viscosity; 0 without strength.
     double
     mobilized_strength(const Points<dim> &points, unsigned int p) const;

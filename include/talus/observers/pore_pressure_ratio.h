@@ -29,9 +29,7 @@ namespace talus
           weight += V * points.data(points.overburden())[p];
         }
       if (weight > 0.)
-        std::fill(&result[cell.begin],
-                  &result[cell.begin] + (cell.end - cell.begin),
-                  u / weight);
+        std::fill_n(&result[cell.begin], cell.end - cell.begin, u / weight);
     });
     return result;
   }

@@ -21,6 +21,7 @@ namespace
                      const std::string &of_merging = "")
       : Core<dim>(cube<dim>() + parameters)
     {
+      this->points.add_pore_pressure();
       // The splitter's parameters, which share the section, stay.
       dealii::ParameterAcceptor::prm.parse_input_from_string(
         in_section("Splitting", "set Merge = all\n" + of_merging));
@@ -433,8 +434,7 @@ namespace
           moment += m * core.get(points.position, p);
           initial_moment += m * core.get(points.initial_position, p);
           stress += V * core.stress(p);
-          if (points.have_pore_pressure())
-            pressure += V * points.data(points.pore_pressure())[p];
+          pressure += V * points.data(points.pore_pressure())[p];
           elastic += points.data(points.elastic_energy)[p];
           kinetic += 0.5 * m * core.get(points.velocity, p).norm_square();
           reference_volume += points.data(points.reference_volume)[p];
@@ -472,9 +472,8 @@ namespace
         const auto         length = core.vector(0.9 * spacing, 1.1 * spacing);
         const unsigned int p = core.add(x, length, (x[0] + x[1] < 4. ? 0 : 1));
         core.randomize(p);
-        if (core.points.have_pore_pressure())
-          core.points.data(core.points.pore_pressure())[p] =
-            core.number(10., 100.);
+        core.points.data(core.points.pore_pressure())[p] =
+          core.number(10., 100.);
         core.set_deformation(p,
                              core.tensor(-0.05, 0.05) +
                                typename Core<dim>::Tensor(
@@ -495,7 +494,6 @@ namespace
   expect_kept()
   {
     Merging<dim> core("", for_lattice);
-    core.points.add_pore_pressure();
     add_lattice(core);
     const unsigned int n_before = core.points.size();
     const Sums<dim>    before(core);

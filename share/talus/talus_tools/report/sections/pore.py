@@ -26,5 +26,6 @@ def pore_water(run):
             f"{run.entries.get(f'Materials/{name}/Pore water/Drainage', 'drained')}."
             for name in materials]
     said += [line for line in run.log.remarks if REMARK.search(line)]
-    return Section("pore-water", "Pore water", "Pressure that friction does not see.",
+    return Section("pore-water", "Pore water",
+                   "Its excess pressure takes effective stress, and friction with it, from the soil.",
                    [summary(run, MEANINGS), Lines(said)])
