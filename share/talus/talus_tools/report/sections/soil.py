@@ -89,11 +89,11 @@ def at_the_end(run, series, way, starts, colors, sentence):
     """Picture of a field at the end; none where it is not written or nowhere above zero."""
     outlines, values = cut_points(*series.read(series.times[-1]), way)
     names = [n for n in values if n.startswith(starts)]
-    if not names or not numpy.nanmax(values[names[0]], initial=0) > 0:
+    if not names or not values[names[0]].max() > 0:
         return []
     window, height = frame([outlines], 1)
     figure, axes = subplots(height=height + 0.6)
-    limit = numpy.nanpercentile(values[names[0]], 98) or numpy.nanmax(values[names[0]])
+    limit = numpy.percentile(values[names[0]], 98) or values[names[0]].max()
     drawn = axes.add_collection(boxes(outlines, values[names[0]], (0, limit)))
     drawn.set_cmap(colors)
     for lines in surfaces(run, series.times[-1], way):
