@@ -233,10 +233,10 @@ namespace talus
 
 
     /// Merge all columns of points @p p and @p q into @p p. Extensive columns
-    /// are summed. Stress and pore pressure are means weighted by volume (@p
-    /// volume_share of point p), so that internal forces at the nodes are kept;
-    /// all further columns are means weighted by mass (@p mass_share of point
-    /// p).
+    /// are summed. Stress and pressures are means weighted by volume
+    /// (@p volume_share of point p), so that internal forces at the nodes are
+    /// kept; all further columns are means weighted by mass (@p mass_share of
+    /// point p).
     template <int dim>
     void
     join_columns(Points<dim>       &points,
@@ -247,11 +247,9 @@ namespace talus
     {
       for (const Column &column : points.columns())
         {
-          const bool is_stress = column.first == points.stress ||
-                                 (points.have_pore_pressure() &&
-                                  column.first == points.pore_pressure());
-          const double share  = is_stress ? volume_share : mass_share;
-          const bool   is_sum = column.inheritance == Inheritance::divided;
+          const double share =
+            (column.unit == "Pa" ? volume_share : mass_share);
+          const bool is_sum = column.inheritance == Inheritance::divided;
           for (unsigned int c = 0; c < column.n_components; ++c)
             {
               double      &value = points.data(column.first, c)[p];

@@ -109,11 +109,30 @@ namespace talus
 
 
 
-  // With s = x.n and means over the points, u(s) = <u> +
+  // With means over the points, u(s) = <u> +
   // (<u s> - <u> <s>)/(<s s> - <s> <s>) (s - <s>). A layer of one point has no
   // slope, and neither have points on both sides of a periodic face. In a thin
   // layer a pressure that grows from zero is at the base twice the mean: more
   // would be noise.
+  double
+  PressureFit::at(const double coordinate, const double cell_size) const
+  {
+    if (V <= 0.)
+      return 0.;
+    const double mean = u / V, place = s / V;
+    const double variance = ss / V - place * place;
+    const double least    = 1e-3 * cell_size * cell_size;
+    if (variance < least || variance > 4. * cell_size * cell_size)
+      return mean;
+    const double slope = (us / V - mean * place) / variance;
+    return std::clamp(mean + slope * (coordinate - place),
+                      std::min(0., 2. * mean),
+                      std::max(0., 2. * mean));
+  }
+
+
+
+  // The coordinate is s = x.n.
   template <int dim>
   double
   NodalPorePressure<dim>::at(const unsigned int   *node,
@@ -125,33 +144,22 @@ namespace talus
   {
     if (sums_.empty())
       return 0.;
-    double V = 0, u = 0, s = 0, us = 0, ss = 0;
+    PressureFit fit;
     for (unsigned int v = 0; v < n; ++v)
       {
         const double *sum = &sums_[std::size_t(width) * node[v]];
-        V += share[v] * *sum++;
-        u += share[v] * *sum++;
+        fit.V += share[v] * *sum++;
+        fit.u += share[v] * *sum++;
         for (unsigned int i = 0; i < dim; ++i)
           {
-            s += share[v] * normal[i] * *sum++;
-            us += share[v] * normal[i] * *sum++;
+            fit.s += share[v] * normal[i] * *sum++;
+            fit.us += share[v] * normal[i] * *sum++;
             for (unsigned int j = i; j < dim; ++j)
-              ss +=
+              fit.ss +=
                 (i == j ? 1. : 2.) * share[v] * normal[i] * normal[j] * *sum++;
           }
       }
-    if (V <= 0.)
-      return 0.;
-    const double mean = u / V, place = s / V;
-    const double variance = ss / V - place * place;
-    const double least    = 1e-3 * cell_size * cell_size;
-    if (variance < least || variance > 4. * cell_size * cell_size)
-      return mean;
-    const double slope    = (us / V - mean * place) / variance;
-    const double at_place = mean + slope * (Tensor<1, dim>(x) * normal - place);
-    return std::clamp(at_place,
-                      std::min(0., 2. * mean),
-                      std::max(0., 2. * mean));
+    return fit.at(Tensor<1, dim>(x) * normal, cell_size);
   }
 
 

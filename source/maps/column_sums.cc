@@ -12,69 +12,85 @@ namespace talus
 {
   using namespace dealii;
 
-  /// Return whether points of the batch can overlap a column. Points outside of
-  /// the mesh are assigned to the outermost cells, and may then be missed.
-  template <int dim>
-  bool
-  ColumnSums<dim>::may_reach(const State<dim> &state, const Batch &batch) const
+  namespace
   {
-    for (const Segment &segment : state.points.segments(batch))
-      {
-        const Cell<dim> &cell   = state.grid.cells()[segment.cell];
-        const double     margin = 0.5 * longest_box(state, cell.size);
-        Box<dim>         reach  = cell.box();
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            reach.lower[d] -= margin;
-            reach.upper[d] += margin;
-          }
-        if (columns_->may_reach(reach))
-          return true;
-      }
-    return false;
-  }
+    /// Return whether points of the batch can overlap a column. Points outside
+    /// of the mesh are assigned to the outermost cells, and may then be missed.
+    template <int dim>
+    bool
+    may_reach(const State<dim>       &state,
+              const Batch            &batch,
+              const PlanColumns<dim> &columns)
+    {
+      for (const Segment &segment : state.points.segments(batch))
+        {
+          const Cell<dim> &cell   = state.grid.cells()[segment.cell];
+          const double     margin = 0.5 * longest_box(state, cell.size);
+          Box<dim>         reach  = cell.box();
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              reach.lower[d] -= margin;
+              reach.upper[d] += margin;
+            }
+          if (columns.may_reach(reach))
+            return true;
+        }
+      return false;
+    }
 
 
 
-  /// Boxes parallel to the axes are computed from the stretch, several points
-  /// at a time; convected domains are computed individually.
+    /// The length of the boxes is limited to the length that the weights allow.
+    template <int dim>
+    void
+    find_footprints(const State<dim> &state,
+                    const Batch      &batch,
+                    Footprints<dim>  &footprints)
+    {
+      const Points<dim> &points = state.points;
+      const unsigned int n      = batch.end - batch.begin;
+      footprints.resize(n);
+      for (unsigned int a = 0; a < dim - 1; ++a)
+        {
+          const unsigned int  d = axis_of_plan<dim>(a);
+          const double *const length =
+            points.data(points.box_length, d) + batch.begin;
+          std::copy_n(points.data(points.position, d) + batch.begin,
+                      n,
+                      footprints.centre[a].begin());
+          double *const half = footprints.half[a].data();
+          for (unsigned int i = 0; i < n; ++i)
+            half[i] = 0.5 * length[i];
+        }
+      for (const Segment &segment : points.segments(batch))
+        {
+          const double longest =
+            longest_box(state, state.grid.cells()[segment.cell].size);
+          for (unsigned int a = 0; a < dim - 1; ++a)
+            for (unsigned int p = segment.begin; p < segment.end; ++p)
+              {
+                double &half = footprints.half[a][p - batch.begin];
+                half         = std::min(half, 0.5 * longest);
+              }
+        }
+    }
+  } // namespace
+
+
+
   template <int dim>
   void
-  ColumnSums<dim>::find_footprints(const State<dim> &state, const Batch &batch)
+  find_shares(const State<dim>       &state,
+              const Batch            &batch,
+              const PlanColumns<dim> &columns,
+              Footprints<dim>        &footprints,
+              ColumnShares           &shares)
   {
-    const Points<dim> &points = state.points;
-    const unsigned int n      = batch.end - batch.begin;
-    footprints_.resize(n);
-    volumes_.resize(n);
-    for (unsigned int a = 0; a < dim - 1; ++a)
-      {
-        const unsigned int  d = axis_of_plan<dim>(a);
-        const double *const length =
-          points.data(points.box_length, d) + batch.begin;
-        std::copy_n(points.data(points.position, d) + batch.begin,
-                    n,
-                    footprints_.centre[a].begin());
-        double *const half = footprints_.half[a].data();
-        for (unsigned int i = 0; i < n; ++i)
-          half[i] = 0.5 * length[i];
-      }
-    for (const Segment &segment : points.segments(batch))
-      {
-        const double longest =
-          longest_box(state, state.grid.cells()[segment.cell].size);
-        for (unsigned int a = 0; a < dim - 1; ++a)
-          for (unsigned int p = segment.begin; p < segment.end; ++p)
-            {
-              double &half = footprints_.half[a][p - batch.begin];
-              half         = std::min(half, 0.5 * longest);
-            }
-      }
-    for_each_simd(batch.begin,
-                  batch.end,
-                  [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
-                    store(volumes_.data() + (p - batch.begin),
-                          volume_of_points<dim, decltype(number)>(points, p));
-                  });
+    shares.clear();
+    if (!may_reach(state, batch, columns))
+      return;
+    find_footprints(state, batch, footprints);
+    columns.find_shares(footprints, shares);
   }
 
 
@@ -109,8 +125,13 @@ namespace talus
     std::array<const double *, dim> velocity;
     for (unsigned int d = 0; d < dim; ++d)
       velocity[d] = points.data(points.velocity, d);
-    shares_.clear();
-    columns_->find_shares(footprints_, shares_);
+    volumes_.resize(batch.end - batch.begin);
+    for_each_simd(batch.begin,
+                  batch.end,
+                  [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+                    store(volumes_.data() + (p - batch.begin),
+                          volume_of_points<dim, decltype(number)>(points, p));
+                  });
     for (const ColumnShare &share : shares_)
       {
         const unsigned int p      = batch.begin + share.item;
@@ -136,9 +157,9 @@ namespace talus
     clear();
     strengths_.clear();
     state.points.for_each_batch([&](const Batch &batch) {
-      if (!may_reach(state, batch))
+      find_shares(state, batch, *columns_, footprints_, shares_);
+      if (shares_.begin() == shares_.end())
         return;
-      find_footprints(state, batch);
       if (materials != nullptr)
         find_strengths(state, *materials, batch);
       add_batch(state, batch);
@@ -216,6 +237,8 @@ namespace talus
 
 
 
+  template decltype(find_shares<2>) find_shares<2>;
+  template decltype(find_shares<3>) find_shares<3>;
   template class ColumnSums<2>;
   template class ColumnSums<3>;
 } // namespace talus

@@ -121,7 +121,7 @@ namespace talus
 
 
   /// All fields of the history, including the arrival time for each threshold
-  /// of the settings, and the state of a bed that softens.
+  /// of the settings, the state of a bed that softens, and the pore pressure.
   template <int dim>
   std::vector<typename Maps<dim>::MapField>
   Maps<dim>::fields() const
@@ -133,16 +133,29 @@ namespace talus
         {field.name, field.unit, [this, field](const unsigned int column) {
            return field.value(this->envelope()[column]);
          }});
-    if (bed_.is_used())
-      {
-        result.push_back({"slip of the bed", "m", [this](unsigned int column) {
-                            return bed_.slip(column);
-                          }});
+    const auto add = [&](const std::string &name,
+                         const std::string &unit,
+                         const auto        &columns,
+                         const auto         value) {
+      if (columns.is_used())
         result.push_back(
-          {"share of bed shear stress left", "-", [this](unsigned int column) {
-             return bed_.share_left(column);
+          {name, unit, [&columns, value](const unsigned int column) {
+             return (columns.*value)(column);
            }});
-      }
+    };
+    add("slip of the bed", "m", bed_, &BedColumns<dim>::slip);
+    add("share of bed shear stress left",
+        "-",
+        bed_,
+        &BedColumns<dim>::share_left);
+    add("largest pore pressure ratio",
+        "-",
+        pore_,
+        &PoreColumns<dim>::largest_ratio);
+    add("excess pore pressure at the bed",
+        "Pa",
+        pore_,
+        &PoreColumns<dim>::at_bed);
     return result;
   }
 

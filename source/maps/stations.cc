@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/maps/column_sums.h>
+#include <talus/maps/pore_columns.h>
 #include <talus/maps/stations.h>
-
 
 namespace talus
 {
@@ -12,11 +12,12 @@ namespace talus
     /// Append the quantities of a column; zeros without soil.
     template <int dim>
     void
-    list_station(const std::string     &name,
-                 const ColumnSums<dim> &sums,
-                 const unsigned int     column,
-                 const ImpactFormula   &impact,
-                 Quantities            &row)
+    list_station(const std::string      &name,
+                 const ColumnSums<dim>  &sums,
+                 const PoreColumns<dim> &pore,
+                 const unsigned int      column,
+                 const ImpactFormula    &impact,
+                 Quantities             &row)
     {
       const bool           has_soil  = sums[column].mass > 0;
       const double         thickness = sums.thickness(column);
@@ -30,6 +31,15 @@ namespace talus
                      "N/m",
                      has_soil ? sums.momentum_flux(column) : 0.});
       row.push_back({name + " shear strength", "Pa", strength});
+      if (pore.is_used())
+        {
+          row.push_back({name + " largest pore pressure ratio",
+                         "-",
+                         has_soil ? pore.largest_ratio(column) : 0.});
+          row.push_back({name + " excess pore pressure at the bed",
+                         "Pa",
+                         has_soil ? pore.at_bed(column) : 0.});
+        }
       if (impact.is_used())
         row.push_back(
           {name + " impact pressure",
@@ -55,9 +65,11 @@ namespace talus
       places, list_->width(state.grid.cell_size())));
     sums.sum_soil(state, &problem_.materials);
     sums.sum_over_ranks(state.communicator());
+    PoreColumns<dim> pore;
+    pore.find(state, sums.columns());
     Quantities row = {{"time", "s", state.time}};
     for (unsigned int i = 0; i < stations.size(); ++i)
-      list_station(stations[i].name, sums, i, list_->impact(), row);
+      list_station(stations[i].name, sums, pore, i, list_->impact(), row);
     return row;
   }
 

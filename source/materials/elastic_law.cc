@@ -74,7 +74,8 @@ namespace talus
     const double bulk = bulk_modulus_for_water();
     return {pore_water_.stiffness(poisson_ratio_, bulk),
             pore_water_.largest_suction(),
-            bulk};
+            bulk,
+            pore_water_.consolidation()};
   }
 
 

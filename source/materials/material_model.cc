@@ -90,6 +90,20 @@ namespace talus
 
 
 
+  // Soil that has lost all strength bears no more than it has.
+  template <int dim>
+  double
+  MaterialModel<dim>::mobilized_strength(const Points<dim> &points,
+                                         const unsigned int p) const
+  {
+    const double strength = shear_strength(points, p);
+    return strength > 0.
+             ? shear_stress(load_stress<dim, double>(points, p)) / strength
+             : 1.;
+  }
+
+
+
   // Plastic laws count as nearly incompressible for any Poisson's ratio, since
   // plastic flow keeps the volume (RateLaw).
   template <int dim>

@@ -45,6 +45,13 @@ namespace talus
                   "water above. Empty: never.",
                   this->prm,
                   Patterns::List(Patterns::Double(0.), 0, 1));
+    add_parameter("Coefficient of consolidation",
+                  consolidation_,
+                  "Coefficient c_v [m^2/s]: the log then says how far water "
+                  "moves in the run, and whether `Drainage` is right. Empty: "
+                  "not known.",
+                  this->prm,
+                  Patterns::List(Patterns::Double(1e-20), 0, 1));
   }
 
 

@@ -8,7 +8,6 @@
 #include <talus/observers/grid_output.h>
 #include <talus/observers/output.h>
 #include <talus/observers/phase_times.h>
-#include <talus/observers/points_output.h>
 #include <talus/observers/profile.h>
 #include <talus/observers/progress.h>
 
@@ -109,7 +108,9 @@ namespace talus
     statistics_     = statistics.get();
     rows_.observers.push_back(std::move(statistics));
     fields_.observers.push_back(std::make_unique<Profile<dim>>(obstacles));
-    fields_.observers.push_back(std::make_unique<PointsOutput<dim>>());
+    auto points = std::make_unique<PointsOutput<dim>>();
+    points_     = points.get();
+    fields_.observers.push_back(std::move(points));
     fields_.observers.push_back(std::make_unique<GridOutput<dim>>());
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/observers/point_motion.h>
+#include <talus/observers/pore_pressure_ratio.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -223,15 +224,24 @@ namespace talus
 
   namespace
   {
+    /// Append the largest excess pore pressure and pore pressure ratio.
+    /// Collective.
     template <int dim>
-    double
-    largest_pore_pressure(const Points<dim> &points,
-                          const MPI_Comm     communicator)
+    void
+    list_pore_pressure(const State<dim> &state, Quantities &list)
     {
-      double result = std::numeric_limits<double>::lowest();
+      const Points<dim> &points = state.points;
+      double             u = std::numeric_limits<double>::lowest(), ratio = u;
       for (unsigned int p = 0; p < points.size(); ++p)
-        result = std::max(result, points.data(points.pore_pressure())[p]);
-      return Utilities::MPI::max(result, communicator);
+        u = std::max(u, points.data(points.pore_pressure())[p]);
+      for (const double r_u : pore_pressure_ratio(points))
+        ratio = std::max(ratio, r_u);
+      list.push_back({"largest excess pore pressure",
+                      "Pa",
+                      Utilities::MPI::max(u, state.communicator())});
+      list.push_back({"largest pore pressure ratio",
+                      "-",
+                      Utilities::MPI::max(ratio, state.communicator())});
     }
   } // namespace
 
@@ -273,10 +283,7 @@ namespace talus
     list.push_back({"maximum speed", "m/s", maximum_speed(state)});
     list.push_back({"maximum speed of points", "m/s", sums.maximum_speed});
     if (state.points.have_pore_pressure())
-      list.push_back(
-        {"largest excess pore pressure",
-         "Pa",
-         largest_pore_pressure(state.points, state.communicator())});
+      list_pore_pressure(state, list);
     list.push_back({"mass", "kg", sums.mass});
     append_vector<dim>(list, "momentum", "kg m/s", sums.momentum);
   }

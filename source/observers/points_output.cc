@@ -3,6 +3,7 @@
 #include <talus/io/vtu_writer.h>
 #include <talus/observers/boxes.h>
 #include <talus/observers/points_output.h>
+#include <talus/observers/pore_pressure_ratio.h>
 #include <talus/observers/state_cells.h>
 #include <talus/points/points_kernel.h>
 
@@ -97,24 +98,6 @@ namespace talus
 
 
 
-    /// Return mean stress and von Mises stress sqrt(3/2 s:s), Pa, with the
-    /// deviator s; off-diagonal components count twice. In 2-D the mean
-    /// includes the out-of-plane stress, which is not zero.
-    template <int dim>
-    std::pair<double, double>
-    stress_measures(const Points<dim> &points, const unsigned int p)
-    {
-      const auto   sigma = load_stress<dim, double>(points, p);
-      const double mean  = (sigma[0] + sigma[1] + sigma[2]) / 3.;
-      double       s_s   = 0;
-      for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
-        s_s += (c < 3 ? (sigma[c] - mean) * (sigma[c] - mean)
-                      : 2. * sigma[c] * sigma[c]);
-      return {mean, std::sqrt(1.5 * s_s)};
-    }
-
-
-
     /// Append derived vectors, needed often enough to spare users the
     /// calculator of ParaView.
     template <int dim>
@@ -131,7 +114,8 @@ namespace talus
 
 
 
-    /// Append derived scalars. J is the volume over the initial volume.
+    /// Append derived scalars. J is the volume over the initial volume. In 2-D
+    /// the mean stress includes the stress out of the plane, which is not zero.
     template <int dim>
     void
     append_derived_scalars(std::vector<Field> &fields,
@@ -143,16 +127,23 @@ namespace talus
         }));
       fields.push_back(
         scalar_field("mean stress", "Pa", [&points](const unsigned int p) {
-          return stress_measures(points, p).first;
+          return mean_normal(load_stress<dim, double>(points, p));
         }));
       fields.push_back(
         scalar_field("von Mises stress", "Pa", [&points](const unsigned int p) {
-          return stress_measures(points, p).second;
+          return std::sqrt(3.) *
+                 shear_stress(load_stress<dim, double>(points, p));
         }));
       fields.push_back(scalar_field("J", "", [&points](const unsigned int p) {
         return volume_of_points<dim, double>(points, p) /
                points.data(points.reference_volume)[p];
       }));
+      if (points.have_pore_pressure())
+        fields.push_back(
+          scalar_field("pore pressure ratio",
+                       "",
+                       [ratio = pore_pressure_ratio(points)](
+                         const unsigned int p) { return ratio[p]; }));
     }
 
 

@@ -111,6 +111,8 @@ namespace talus
   {
     pore_pressure_ =
       add_column("excess pore pressure", "Pa", 1, Inheritance::copied);
+    overburden_ =
+      add_column("overburden at rest", "Pa", 1, Inheritance::copied);
   }
 
 

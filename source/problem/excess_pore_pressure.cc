@@ -37,6 +37,14 @@ namespace talus
                   final_,
                   "Excess pore pressure in the end, given as 'Initial' [Pa]. "
                   "Empty: no change.");
+    add_parameter("Stage value",
+                  stage_value_,
+                  "Pressure in the stage 'strength reduction': 'initial', or "
+                  "'final' for the factor of safety after the change. The "
+                  "stages 'equilibrium' and 'dynamics' start from 'Initial' in "
+                  "any case.",
+                  this->prm,
+                  Patterns::Selection("initial|final"));
     add_parameter("Start time",
                   ramp_.start_time,
                   "Time at which the pressure begins to change [s].",
@@ -71,6 +79,11 @@ namespace talus
                 ExcUser("'Excess pore pressure/Start time' or 'Duration' is "
                         "given, but 'Final' is empty: the pressure does not "
                         "change. Give 'Final' or remove the times."));
+    AssertThrow(!final_.empty() || !is_final_in_stage(),
+                ExcUser("'Excess pore pressure/Stage value' is 'final', but "
+                        "'Final' is empty: no pressure is known for the stage "
+                        "'strength reduction'. Give 'Final', or use "
+                        "'initial'."));
     AssertThrow(final_.empty() || ramp_.start_time < end_time,
                 ExcUser(text("'Excess pore pressure/Start time' is ",
                              ramp_.start_time,
@@ -135,11 +148,11 @@ namespace talus
     check_weight(const Points<dim>         &points,
                  const std::string         &entry,
                  const std::vector<double> &u,
-                 const std::vector<double> &overburden,
                  const MPI_Comm             communicator)
     {
-      unsigned int at    = 0; // point of the largest ratio
-      const auto   ratio = [&](const unsigned int p) {
+      const double *const overburden = points.data(points.overburden());
+      unsigned int        at         = 0; // point of the largest ratio
+      const auto          ratio      = [&](const unsigned int p) {
         return u[p] / std::max(overburden[p], 1e-300);
       };
       for (unsigned int p = 1; p < u.size(); ++p)
@@ -171,11 +184,10 @@ namespace talus
 
   template <int dim>
   void
-  ExcessPorePressure<dim>::set(Points<dim>               &points,
-                               const std::vector<double> &overburden,
-                               const Inputs<dim>         &inputs,
-                               const Mudline<dim>        &mudline,
-                               const MPI_Comm             communicator) const
+  ExcessPorePressure<dim>::set(Points<dim>        &points,
+                               const Inputs<dim>  &inputs,
+                               const Mudline<dim> &mudline,
+                               const MPI_Comm      communicator) const
   {
     const auto values = [&](const std::string &entry,
                             const std::string &words) {
@@ -190,8 +202,8 @@ namespace talus
       for (unsigned int p = 0; p < points.size(); ++p)
         if (has_pressure_[points.data(points.body)[p]])
           u[p] = field.at(load_place(points, points.initial_position, p),
-                          overburden[p]);
-      check_weight(points, entry, u, overburden, communicator);
+                          points.data(points.overburden())[p]);
+      check_weight(points, entry, u, communicator);
       return u;
     };
     const auto now = values("Initial", initial_);
@@ -207,11 +219,8 @@ namespace talus
 
   template <int dim>
   void
-  ExcessPorePressure<dim>::update(Points<dim> &points,
-                                  const double before,
-                                  const double now) const
+  ExcessPorePressure<dim>::add(Points<dim> &points, const double grown) const
   {
-    const double        grown  = ramp_.progress(now) - ramp_.progress(before);
     const double *const change = points.data(change_);
     double *const       u      = points.data(points.pore_pressure());
     for (unsigned int p = 0; p < points.size(); ++p)
@@ -232,7 +241,10 @@ namespace talus
                 ramp_.end_time(),
                 " s the excess pore pressure changes to '",
                 final_,
-                "' Pa; static stages see the initial pressure.");
+                "' Pa; ",
+                is_final_in_stage()
+                  ? "the stage 'strength reduction' sees this pressure."
+                  : "static stages see the initial pressure.");
   }
 
 

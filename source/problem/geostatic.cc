@@ -285,22 +285,6 @@ namespace talus
 
 
 
-    /// Return sqrt(s:s/2) of the deviator s, Pa, comparable with the shear
-    /// strength.
-    template <int dim>
-    double
-    shear_stress(const Stress<dim, double> &sigma)
-    {
-      const double mean = (sigma[0] + sigma[1] + sigma[2]) / 3.;
-      double       sum  = 0;
-      for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
-        sum += c < 3 ? 0.5 * (sigma[c] - mean) * (sigma[c] - mean)
-                     : sigma[c] * sigma[c];
-      return std::sqrt(sum);
-    }
-
-
-
     /// Return a note, not an error: the first step returns the stress to the
     /// yield surface, but the soil starts out of balance.
     Remark
@@ -387,7 +371,7 @@ namespace talus
           if (points.data(points.body)[p] == b)
             {
               const double ratio =
-                shear_stress<dim>(load_stress<dim, double>(points, p)) /
+                shear_stress(load_stress<dim, double>(points, p)) /
                 materials.of_body(b).shear_strength(points, p);
               n_yielding += (ratio > 1. + 1e-9);
               largest = std::max(largest, ratio);

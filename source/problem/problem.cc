@@ -173,21 +173,27 @@ namespace talus
   void
   Problem<dim>::set_pore_pressure(State<dim> &state) const
   {
-    if (!pore_pressure.exists())
+    Points<dim> &points = state.points;
+    if (!points.have_pore_pressure())
       return;
     std::vector<double> density;
     for (unsigned int b = 0; b < bodies_.size(); ++b)
       density.push_back(materials.of_body(b).submerged_density());
-    pore_pressure.set(
-      state.points,
-      normal_stress_at_rest(state.points,
+    const auto overburden =
+      normal_stress_at_rest(points,
                             density,
                             loading.gravity(),
                             Ground<dim>(state.grid.domain(), &obstacles),
-                            state.communicator()),
-      inputs_,
-      mudline_of(bodies_.list(), state.grid.domain_before_growth()),
-      state.communicator());
+                            state.communicator());
+    std::copy(overburden.begin(),
+              overburden.end(),
+              points.data(points.overburden()));
+    if (pore_pressure.exists())
+      pore_pressure.set(points,
+                        inputs_,
+                        mudline_of(bodies_.list(),
+                                   state.grid.domain_before_growth()),
+                        state.communicator());
   }
 
 

@@ -11,6 +11,8 @@
 #include <talus/observers/footprint.h>
 #include <talus/observers/obstacle_forces.h>
 #include <talus/observers/obstacles_output.h>
+#include <talus/observers/state_cells.h>
+#include <talus/problem/drainage.h>
 #include <talus/simulation/pace.h>
 #include <talus/simulation/run_remarks.h>
 #include <talus/simulation/shear_bands.h>
@@ -74,6 +76,12 @@ namespace talus
     output_.add_field_observer(
       std::make_unique<FacetsOutput<dim>>(problem_.contact));
     add_map_observers(problem_, output_);
+    output_.add_point_field(
+      scalar_field("mobilized strength", "", [this](const unsigned int p) {
+        const Points<dim> &points = state_.points;
+        return problem_.materials.of_body(points.data(points.body)[p])
+          .mobilized_strength(points, p);
+      }));
     // The remark on the contact area uses the numbers of the same row.
     const auto areas = std::make_shared<Quantities>();
     output_.add_quantities(
@@ -476,6 +484,9 @@ namespace talus
     log_.say(level, mesh_.description());
     for (const std::string &fact : problem_.facts())
       log_.say(level, fact);
+    problem_.add_remarks(notes_on_drainage(problem_.materials,
+                                           problem_.bodies().thickness(),
+                                           end_of_run()));
     for (const Remark &remark : problem_.remarks(state_.grid.cell_size()))
       log_.remark(remark);
     note_time_step(level);

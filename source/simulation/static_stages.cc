@@ -142,7 +142,14 @@ namespace talus
                         "Set 'Gravity/Ramp time' to 0: the stage itself "
                         "applies the load in steps."));
     if (!stages_.contain(Stage::strength_reduction))
-      return;
+      {
+        AssertThrow(!problem_.pore_pressure.is_final_in_stage(),
+                    ExcUser("'Excess pore pressure/Stage value' is 'final', "
+                            "but Stages lists no 'strength reduction', the "
+                            "stage that would see this pressure. Add the "
+                            "stage, or use 'initial'."));
+        return;
+      }
     strength_reduction_.check();
     bool has_strength =
       problem_.has_seabed() && strength_reduction_.includes_seabed();
@@ -483,12 +490,16 @@ namespace talus
     strength_reduction_.begin(
       problem_.materials.largest_strength_factor(state_.points,
                                                  state_.communicator()));
-    // Soil that stands as it is may fail with Davis' strength.
+    // Soil that stands as it is may fail with Davis' strength, or under the
+    // pressure at the end.
+    const bool is_final = problem_.pore_pressure.is_final_in_stage();
+    if (is_final)
+      problem_.pore_pressure.add(state_.points, 1.);
     problem_.materials.use_associated_flow(strength_reduction_.is_associated());
-    if (stages_.contain(Stage::equilibrium) &&
+    if (stages_.contain(Stage::equilibrium) && !is_final &&
         !strength_reduction_.is_associated())
       start_reduction();
-    search_factor(before);
+    search_factor(is_final ? save() : before);
     const auto remarks = problem_.materials.notes_on_safety();
     problem_.materials.use_associated_flow(false);
     if (equilibrium_.is_stopped())

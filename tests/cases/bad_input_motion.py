@@ -49,6 +49,8 @@ class BadInputMotion(Case):
                 (["Bodies=block"], "'Excess pore pressure/Bodies'", "no soil"),
                 (["Initial=1", "Duration=1"], "'Final' is empty"),
                 (["Final=1", "Start time=0.01"], "ends at 0.01 s", "'End time'"),
+                (["Initial=1", "Stage value=final"], "'Final' is empty"),
+                (["Final=1", "Stage value=final"], "no 'strength reduction'"),
                 (["Initial=1", "Bodies=blok"], "'blok'", "only: block"),
                 (["Initial=2*weight"], "'Excess pore pressure/Initial'",
                  "cannot be understood", "overburden"),

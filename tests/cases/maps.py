@@ -17,7 +17,10 @@ from ranks_case import TALUS, Case
 NAMES = ["ground", "erosion", "final-thickness", "final-mass", "thickness-at-start",
          "arrival-time-0.5-m", "arrival-time-1-m",
          *[f"{what}maximum-{of}" for what in ("", "time-of-")
-           for of in ("thickness", "speed", "momentum-flux", "bed-shear")]]
+           for of in ("thickness", "speed", "momentum-flux", "bed-shear")],
+         "largest-pore-pressure-ratio", "excess-pore-pressure-at-the-bed"]
+UNDRAINED = ["Materials/clay/Pore water/Drainage=undrained",
+             "Materials/clay/Pore water/Stiffness=1e6"]
 
 
 def read_table(path):
@@ -144,7 +147,7 @@ class Maps(Case):
         self.assertGreater(n, 10)
 
     def test_slide(self):
-        settings = self.SLIDE + ["Stations/Points=toe: 30.8 | far: 40.4",
+        settings = self.SLIDE + UNDRAINED + ["Stations/Points=toe: 30.8 | far: 40.4",
                                  "Stations/Lines=all: -9.2; 60.4",
                                  "Stations/Drag coefficient=0.4",
                                  "Stations/Bearing factor=11.9"]
@@ -198,7 +201,7 @@ class Maps(Case):
     def test_rasters(self):
         """In 3-D, on the map, where z points south; a line in map coordinates
         sees what a station in those of the mesh sees."""
-        settings = ["Grid/Cell size=1.2", "End time=0.3",
+        settings = UNDRAINED + ["Grid/Cell size=1.2", "End time=0.3",
                     "Output/Field interval=0.1", "Maps/Write=true",
                     "Maps/Arrival thresholds=0.5, 1", "Maps/Cell size=2.4",
                     "Grid/Origin=5e5, 6.5e6, -100",

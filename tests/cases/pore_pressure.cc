@@ -4,7 +4,7 @@
 #include "static_case.h"
 
 #include <talus/base/errors.h>
-#include <talus/points/points_kernel.h>
+#include <talus/observers/pore_pressure_ratio.h>
 
 #include <gtest/gtest.h>
 
@@ -392,6 +392,37 @@ TEST(PorePressure, FactorOfSafetyOfSand)
                  .factor_of_safety(),
                row.exact,
                0.002);
+}
+
+
+
+// Davis' factor does not depend on the path: a pressure that rises in soil at
+// rest gives the same factor as a pressure at the start. The slope fails at the
+// second pressure. Afterwards the soil has the pressure at the start.
+TEST(PorePressure, FactorOfSafetyAtTheEndOfTheRise)
+{
+  Verification gates("Infinite slope of sand, pressure at the end of the rise",
+                     "prm/" + sand,
+                     "Davis with psi = 0: sin(phi_F) = t/(s_n - u)");
+  for (const double r_u : {0.3, 0.8})
+    {
+      const StaticCase<2> at_end(
+        sand,
+        text("pore-sand-final-", r_u),
+        sand_slope(10., 30.) +
+          Overrides{"Strength reduction/Non-associated flow=Davis",
+                    "Excess pore pressure/Initial=0.1*overburden",
+                    text("Excess pore pressure/Final=", r_u, "*overburden"),
+                    "Excess pore pressure/Stage value=final"});
+      gates.near(text("factor of safety, r_u = ", r_u),
+                 at_end.factor_of_safety(),
+                 std::tan(30. * per_degree) /
+                   std::tan(std::asin(std::tan(10. * per_degree) / (1. - r_u))),
+                 0.002);
+      const auto &points = at_end.points();
+      for (const double ratio : pore_pressure_ratio(points))
+        EXPECT_NEAR(ratio, 0.1, 1e-12);
+    }
 }
 
 

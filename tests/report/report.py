@@ -209,6 +209,20 @@ class Report(ReportCase):
         self.assertIn(factor.rstrip("."), page.said("safety"))
         self.assertEqual(len(page.pictures("safety")), 1)
 
+    def test_pore_water(self):
+        """Undrained soil, whose pressure is drawn."""
+        folder = self.slide("pore", "Materials/mud/Pore water/Drainage=undrained",
+                            "Materials/mud/Pore water/Stiffness=1e6",
+                            "Materials/mud/Pore water/Coefficient of consolidation=1e-6")
+        page = self.report(folder)
+        rows = read_csv(folder / "statistics.csv")
+        for column in ("largest excess pore pressure [Pa]", "largest pore pressure ratio [-]"):
+            self.assertEqual(float(page.values[column]), max(float(row[column]) for row in rows))
+        for words in ("Pore water of 'mud': undrained", "K_f of 1e+06 Pa", "undrained is right."):
+            self.assertIn(words, page.said("pore-water"))
+        self.assertEqual(len(page.pictures("soil")), 3)
+        self.assertNotIn("pore-water", self.report(self.slide("slope")).sections)
+
     def test_shear_bands(self):
         """Softening soil, with the critical length of the weak layer below the slab."""
         folder = self.slide("bands", "Stages=dynamics", "Output/Boxes as cells=false",

@@ -10,6 +10,30 @@
 
 namespace talus
 {
+  /// Linear fit of a pressure u, Pa, over a coordinate s, m.
+  struct PressureFit
+  {
+    // Sums of weights V, V u, V s, V u s and V s^2.
+    double V = 0, u = 0, s = 0, us = 0, ss = 0;
+
+    void
+    add(const double weight, const double pressure, const double coordinate)
+    {
+      V += weight;
+      u += weight * pressure;
+      s += weight * coordinate;
+      us += weight * pressure * coordinate;
+      ss += weight * coordinate * coordinate;
+    }
+
+    /// Return the pressure, Pa, at @p coordinate, m, in cells of @p cell_size,
+    /// m; 0 without weights.
+    double
+    at(double coordinate, double cell_size) const;
+  };
+
+
+
   /// Excess pore pressure of the soil at places of seabed and obstacles: a
   /// linear function along the normal, fitted to the points that reach the
   /// nodes of the place and evaluated at the place. The mean over the points

@@ -24,6 +24,18 @@ namespace talus
 
 
 
+  /// Find the columns overlapped by the boxes (see box_lengths()) of the points
+  /// of @p batch, numbered from the first point of the batch.
+  template <int dim>
+  void
+  find_shares(const State<dim>       &state,
+              const Batch            &batch,
+              const PlanColumns<dim> &columns,
+              Footprints<dim>        &footprints,
+              ColumnShares           &shares);
+
+
+
   /// Soil summed over columns in plan at a given time: the depth-integrated and
   /// depth-averaged quantities of the literature on landslides. A point
   /// contributes to each column by the fraction of the box (see box_lengths())
@@ -130,10 +142,6 @@ namespace talus
       touched_.clear();
       with_soil_.clear();
     }
-    bool
-    may_reach(const State<dim> &state, const Batch &batch) const;
-    void
-    find_footprints(const State<dim> &state, const Batch &batch);
     void
     find_strengths(const State<dim>     &state,
                    const Materials<dim> &materials,

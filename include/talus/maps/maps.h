@@ -5,6 +5,7 @@
 #include <talus/maps/bed_columns.h>
 #include <talus/maps/envelope_observer.h>
 #include <talus/maps/map_axes.h>
+#include <talus/maps/pore_columns.h>
 
 #include <functional>
 #include <string>
@@ -56,6 +57,7 @@ namespace talus
     prepare_files(const State<dim> &state) override
     {
       bed_.sum(state, this->problem(), this->columns());
+      pore_.find(state, this->columns());
     }
     void
     write_files(const State<dim> &state) override;
@@ -86,8 +88,9 @@ namespace talus
     void
     write_surface(const State<dim> &state);
 
-    BedColumns<dim> bed_;
-    MapAxes<dim>    axes_;
+    BedColumns<dim>  bed_;
+    PoreColumns<dim> pore_;
+    MapAxes<dim>     axes_;
     /// Height of the ground at the corners of the columns, m, x fastest.
     std::vector<double> ground_;
   };

@@ -67,41 +67,6 @@ namespace talus
 
 
 
-  /// Contraction A : B of two symmetric 3x3 tensors.
-  template <std::size_t n, typename Number>
-  TALUS_ALWAYS_INLINE Number
-  contract(const std::array<Number, n> &A, const std::array<Number, n> &B)
-  {
-    Number sum = A[0] * B[0] + A[1] * B[1] + A[2] * B[2];
-    for (unsigned int c = 3; c < n; ++c)
-      sum += 2. * A[c] * B[c];
-    return sum;
-  }
-
-
-
-  /// Mean of the three normal components.
-  template <std::size_t n, typename Number>
-  TALUS_ALWAYS_INLINE Number
-  mean_normal(const std::array<Number, n> &A)
-  {
-    return (A[0] + A[1] + A[2]) * (1. / 3.);
-  }
-
-
-
-  /// Add @p mean to the three normal components.
-  template <std::size_t n, typename Number>
-  TALUS_ALWAYS_INLINE std::array<Number, n>
-                      add_mean(std::array<Number, n> A, const Number &mean)
-  {
-    for (unsigned int c = 0; c < 3; ++c)
-      A[c] += mean;
-    return A;
-  }
-
-
-
   /// Half of the rotation of a step. In 2-D a symmetric tensor rotates by twice
   /// the angle of the axes, so the half rotation is stored as cosine and sine
   /// of the full angle.

@@ -76,6 +76,11 @@ namespace talus
     virtual double
     shear_strength(const Points<dim> &points, unsigned int p) const;
 
+    /// Shear stress sqrt(s:s/2) at point @p p over shear_strength() [-]: 1 if
+    /// soil yields, more by viscosity; 0 without strength.
+    double
+    mobilized_strength(const Points<dim> &points, unsigned int p) const;
+
     /// Strength of undisturbed soil as given by the user; null for laws without
     /// the column `undrained shear strength`, to be set for new points.
     virtual const UndrainedStrength *

@@ -56,10 +56,18 @@ namespace talus
                                       : largest_suction_.front();
     }
 
+    /// Coefficient of consolidation c_v, m^2/s; 0 if not given.
+    double
+    consolidation() const
+    {
+      return consolidation_.empty() ? 0. : consolidation_.front();
+    }
+
   private:
-    std::string         drainage_                = "drained";
-    double              undrained_poisson_ratio_ = 0.49;
-    std::vector<double> stiffness_, largest_suction_; ///< empty or one number
+    std::string drainage_                = "drained";
+    double      undrained_poisson_ratio_ = 0.49;
+    // Empty or one number.
+    std::vector<double> stiffness_, largest_suction_, consolidation_;
   };
 
 
@@ -74,7 +82,8 @@ namespace talus
   {
     double stiffness; ///< K_f, Pa; 0: drained
     double largest_suction;
-    double soil_bulk; ///< K, Pa
+    double soil_bulk;          ///< K, Pa
+    double consolidation = 0.; ///< c_v, m^2/s; 0: not known
 
     /// Advance the excess pore pressure of the points [begin, end) over a step
     /// of @p dt seconds with the velocity gradient in the workspace.

@@ -7,6 +7,7 @@
 #include <talus/io/log.h>
 #include <talus/io/output_folder.h>
 #include <talus/observers/observer.h>
+#include <talus/observers/points_output.h>
 #include <talus/observers/progress.h>
 #include <talus/observers/statistics.h>
 
@@ -82,6 +83,13 @@ namespace talus
     Output(PhaseTimer           &timer,
            Log                  &log,
            const Obstacles<dim> *obstacles = nullptr);
+
+    /// See PointsOutput::add_field().
+    void
+    add_point_field(const Field &field)
+    {
+      points_->add_field(field);
+    }
 
     /// Add columns to statistics.csv.
     void
@@ -259,14 +267,15 @@ namespace talus
     OutputSettings settings_;
     FolderLock     lock_;
 
-    Schedule         rows_{0.25, {}, 0, {}};
-    Schedule         fields_{1., {}, 0, {}};
-    Schedule         plan_{0., {}, 0, {}};
-    Statistics<dim> *statistics_; ///< owned by rows_
-    PhaseTimer      &timer_;
-    Log             &log_;
-    Progress         progress_;
-    bool             has_started_ = false;
+    Schedule           rows_{0.25, {}, 0, {}};
+    Schedule           fields_{1., {}, 0, {}};
+    Schedule           plan_{0., {}, 0, {}};
+    Statistics<dim>   *statistics_; ///< owned by rows_
+    PointsOutput<dim> *points_;     ///< owned by fields_
+    PhaseTimer        &timer_;
+    Log               &log_;
+    Progress           progress_;
+    bool               has_started_ = false;
   };
 } // namespace talus
 

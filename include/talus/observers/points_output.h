@@ -50,10 +50,18 @@ namespace talus
       boxes_as_cells_ = settings.boxes_as_cells;
     }
 
+    /// Add a field to the files of each output time. Such a field may need
+    /// more than the state.
+    void
+    add_field(const Field &field)
+    {
+      further_fields_.push_back(field);
+    }
+
     void
     observe(const State<dim> &state) override
     {
-      write(state);
+      write(state, further_fields_);
     }
 
     /// Write the files of an output time, with @p further_fields besides
@@ -63,7 +71,8 @@ namespace talus
           const std::vector<Field> &further_fields = {});
 
   private:
-    bool boxes_as_cells_ = false;
+    bool               boxes_as_cells_ = false;
+    std::vector<Field> further_fields_;
   };
 
 

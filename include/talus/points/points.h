@@ -106,9 +106,10 @@ namespace talus
                unsigned int       n_scalars,
                Inheritance        inheritance);
 
-    /// Add or find the column of the excess pore pressure u, Pa, compression
-    /// positive. With the column the stress of the points is effective: nodal
-    /// forces and friction see the total stress, stress - u I.
+    /// Add or find the columns of the excess pore pressure u and of the
+    /// overburden, Pa, compression positive. With the columns the stress of the
+    /// points is effective: nodal forces and friction see the total stress,
+    /// stress - u I.
     void
     add_pore_pressure();
 
@@ -123,6 +124,14 @@ namespace talus
     pore_pressure() const
     {
       return pore_pressure_;
+    }
+
+    /// Column of the effective stress across the layers at rest without excess
+    /// pore pressure, Pa, compression positive; invalid without pore pressure.
+    unsigned int
+    overburden() const
+    {
+      return overburden_;
     }
 
     const std::vector<Column> &
@@ -390,6 +399,7 @@ namespace talus
     unsigned int         size_          = 0;
     unsigned int         capacity_      = 0;
     unsigned int         pore_pressure_ = dealii::numbers::invalid_unsigned_int;
+    unsigned int         overburden_    = dealii::numbers::invalid_unsigned_int;
     std::vector<Column>  columns_;
     Rows                 arrays_;
     std::vector<Segment> segments_;
@@ -434,6 +444,7 @@ namespace talus
   {
     return dealii::Point<dim>(load_vector(points, column, p));
   }
+
 } // namespace talus
 
 #endif

@@ -87,6 +87,53 @@ namespace talus
   {
     return determinant(load_matrix<dim, Number>(points, points.edges, p));
   }
+
+
+
+  /// Contraction A : B of two symmetric 3x3 tensors.
+  template <std::size_t n, typename Number>
+  TALUS_ALWAYS_INLINE Number
+  contract(const std::array<Number, n> &A, const std::array<Number, n> &B)
+  {
+    Number sum = A[0] * B[0] + A[1] * B[1] + A[2] * B[2];
+    for (unsigned int c = 3; c < n; ++c)
+      sum += 2. * A[c] * B[c];
+    return sum;
+  }
+
+
+
+  /// Mean of the three normal components.
+  template <std::size_t n, typename Number>
+  TALUS_ALWAYS_INLINE Number
+  mean_normal(const std::array<Number, n> &A)
+  {
+    return (A[0] + A[1] + A[2]) * (1. / 3.);
+  }
+
+
+
+  /// Add @p mean to the three normal components.
+  template <std::size_t n, typename Number>
+  TALUS_ALWAYS_INLINE std::array<Number, n>
+                      add_mean(std::array<Number, n> A, const Number &mean)
+  {
+    for (unsigned int c = 0; c < 3; ++c)
+      A[c] += mean;
+    return A;
+  }
+
+
+
+  /// Return the shear stress sqrt(s:s/2) of the deviator s, comparable with the
+  /// shear strength.
+  template <std::size_t n, typename Number>
+  TALUS_ALWAYS_INLINE Number
+  shear_stress(const std::array<Number, n> &sigma)
+  {
+    const auto s = add_mean(sigma, Number(-mean_normal(sigma)));
+    return sqrt(0.5 * contract(s, s));
+  }
 } // namespace talus
 
 #endif

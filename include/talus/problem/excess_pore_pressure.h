@@ -51,17 +51,13 @@ namespace talus
     tables(const std::filesystem::path &folder) const;
 
     /// Set u at the start and the change to come, from the initial places of
-    /// the points.
-    /// @param overburden effective stress at rest of each point without u,
-    ///   across the layers, Pa, compression positive
-    /// Throws ExcUser where u would be more than @p overburden: the soil would
-    /// float. Collective.
+    /// the points and their overburden. Throws ExcUser where u would be more
+    /// than the overburden: the soil would float. Collective.
     void
-    set(Points<dim>               &points,
-        const std::vector<double> &overburden,
-        const Inputs<dim>         &inputs,
-        const Mudline<dim>        &mudline,
-        MPI_Comm                   communicator) const;
+    set(Points<dim>        &points,
+        const Inputs<dim>  &inputs,
+        const Mudline<dim> &mudline,
+        MPI_Comm            communicator) const;
 
     /// Whether u changes from time @p before to time @p now, s.
     bool
@@ -72,7 +68,21 @@ namespace talus
 
     /// Add what u changes from time @p before to time @p now, s; see changes().
     void
-    update(Points<dim> &points, double before, double now) const;
+    update(Points<dim> &points, const double before, const double now) const
+    {
+      add(points, ramp_.progress(now) - ramp_.progress(before));
+    }
+
+    /// Whether the stage 'strength reduction' sees the pressure at the end.
+    bool
+    is_final_in_stage() const
+    {
+      return stage_value_ == "final";
+    }
+
+    /// Add the share @p grown of the whole change of u.
+    void
+    add(Points<dim> &points, double grown) const;
 
     /// Time after which u is constant, s.
     double
@@ -86,7 +96,7 @@ namespace talus
     note() const;
 
   private:
-    std::string              initial_, final_;
+    std::string              initial_, final_, stage_value_ = "initial";
     CosineRamp               ramp_;
     std::vector<std::string> names_of_bodies_;
 

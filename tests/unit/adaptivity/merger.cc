@@ -21,6 +21,7 @@ namespace
                      const std::string &of_merging = "")
       : Core<dim>(cube<dim>() + parameters)
     {
+      this->points.add_pore_pressure();
       // The splitter's parameters, which share the section, stay.
       dealii::ParameterAcceptor::prm.parse_input_from_string(
         in_section("Splitting", "set Merge = all\n" + of_merging));
@@ -433,6 +434,7 @@ namespace
           moment += m * core.get(points.position, p);
           initial_moment += m * core.get(points.initial_position, p);
           stress += V * core.stress(p);
+          pressure += V * points.data(points.pore_pressure())[p];
           elastic += points.data(points.elastic_energy)[p];
           kinetic += 0.5 * m * core.get(points.velocity, p).norm_square();
           reference_volume += points.data(points.reference_volume)[p];
@@ -441,7 +443,7 @@ namespace
 
     std::map<unsigned int, double> mass;
     double                         volume = 0, elastic = 0, kinetic = 0;
-    double                         reference_volume = 0;
+    double                         reference_volume = 0, pressure = 0;
     Tensor<1, dim>                 momentum, moment, initial_moment;
     Tensor<2, dim>                 stress;
   };
@@ -470,6 +472,8 @@ namespace
         const auto         length = core.vector(0.9 * spacing, 1.1 * spacing);
         const unsigned int p = core.add(x, length, (x[0] + x[1] < 4. ? 0 : 1));
         core.randomize(p);
+        core.points.data(core.points.pore_pressure())[p] =
+          core.number(10., 100.);
         core.set_deformation(p,
                              core.tensor(-0.05, 0.05) +
                                typename Core<dim>::Tensor(
@@ -505,6 +509,7 @@ namespace
     EXPECT_NEAR(after.reference_volume / before.reference_volume,
                 1.,
                 tolerance);
+    EXPECT_NEAR(after.pressure / before.pressure, 1., tolerance);
     EXPECT_NEAR(after.elastic / before.elastic, 1., tolerance);
     EXPECT_LT((after.momentum - before.momentum).norm(),
               tolerance * std::sqrt(before.kinetic));

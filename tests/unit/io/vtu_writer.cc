@@ -224,6 +224,22 @@ namespace
 
 
 
+  // Without weight there is no ratio.
+  TEST_F(VtuTest, PorePressureRatio)
+  {
+    Scene<2> s("0, 0", "8, 4");
+    s.points.add_pore_pressure();
+    add_points(s);
+    s.points.data(s.points.pore_pressure())[0] = 3.;
+    s.points.data(s.points.overburden())[0]    = 5.;
+    s.sort();
+    write_points(s, folder / "p.vtu");
+    EXPECT_EQ(read_vtu(folder / "p.vtu").values.at("pore pressure ratio"),
+              std::vector<float>({0.6f, 0.f}));
+  }
+
+
+
   TEST_F(VtuTest, BoxesHoldTheirValuesOnce)
   {
     Scene<2> s("0, 0", "8, 4");

@@ -33,7 +33,9 @@ namespace map_tables_test
                          "set Bearing factor = 10\n") +
                 in_section("Maps",
                            "set Write = true\n"
-                           "set Arrival thresholds = 0.2, 0.8"))
+                           "set Arrival thresholds = 0.2, 0.8") +
+                in_section("Excess pore pressure",
+                           "set Initial = 0.6*overburden"))
     {
       settings.folder = folder;
     }
@@ -115,6 +117,8 @@ TEST_F(MapTables, Stations)
   expect(row, "on momentum flux [N/m]", 2000. * 25.);
   expect(row, "on shear strength [Pa]", 5000.);
   expect(row, "on impact pressure [Pa]", 0.5 * 2. * 2000. * 25. + 50000.);
+  expect(row, "on largest pore pressure ratio [-]", 0.6);
+  expect(row, "on excess pore pressure at the bed [Pa]", 0.6 * 800. * 9.81);
   for (const auto &[heading, value] : row)
     if (heading.find("beside") == 0)
       {
@@ -177,5 +181,16 @@ TEST_F(MapTables, MapsInASection)
                   1e-12);
       expect(rows[i], "arrival time 0.8 m [s]", is_left ? 0. : 1.);
       expect(rows[i], "maximum momentum flux [N/m]", 5e4);
+      const std::string ratio = "largest pore pressure ratio [-]",
+                        u     = "excess pore pressure at the bed [Pa]";
+      if (is_left)
+        {
+          EXPECT_EQ(rows[i].at(ratio) + rows[i].at(u), "");
+        }
+      else
+        {
+          expect(rows[i], ratio, 0.6);
+          expect(rows[i], u, 0.6 * 800. * 9.81);
+        }
     }
 }

@@ -11,6 +11,8 @@
 #include <random>
 #include <utility>
 
+#include "specimen.h"
+
 // The return of MohrCoulombFlow against the criterion by principal stresses.
 
 namespace mohr_coulomb_test
@@ -269,6 +271,23 @@ namespace mohr_coulomb_test
         std::hypot(strain[0].value - strain[1].value, 2. * strain[3].value);
     }
   };
+
+
+
+  // An infinite slope of 10 degrees at rest, in units of the stress across:
+  // (s_1 - s_3)/2 is r = hypot(0.25, tan(10 degrees)), and the principal
+  // deviators in the plane have the mean -(1 - K0)/6.
+  TEST(MohrCoulomb, MobilizedStrengthOfASlope)
+  {
+    Specimen<2>  soil("Mohr-Coulomb", "set Friction angle = 30");
+    const double shear = std::tan(M_PI / 18.);
+    store_stress<2, double>(soil.points, 0, {{-5e4, -1e5, -5e4, 1e5 * shear}});
+    EXPECT_NEAR(soil.law->mobilized_strength(soil.points, 0),
+                (std::hypot(0.25, shear) - 0.5 / 12.) / (2. / 3. * 0.5),
+                1e-12);
+    store_stress<2, double>(soil.points, 0, {});
+    EXPECT_EQ(soil.law->mobilized_strength(soil.points, 0), 1.);
+  }
 
 
 

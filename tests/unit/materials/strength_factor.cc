@@ -185,6 +185,7 @@ TEST(StrengthFactor, SuddenDropReleasesWhatWasStored)
         const double tau = std::sqrt(0.5 * soil.deviator_squared());
         EXPECT_NEAR(tau, fraction * s_u, 1e-11 * s_u);
         EXPECT_NEAR(tau, soil.law->shear_strength(points, 0), 1e-11 * s_u);
+        EXPECT_NEAR(soil.law->mobilized_strength(points, 0), 1., 1e-11);
         EXPECT_NEAR(soil.mean_stress(), mean, 1e-12 * paper.bulk);
         const double released = volume * (stored - stored_by_shear(soil));
         EXPECT_NEAR(released,

@@ -8,6 +8,7 @@ from talus_tools.report.sections.fracture import fracture
 from talus_tools.report.sections.lines import lines
 from talus_tools.report.sections.maps import maps
 from talus_tools.report.sections.motion import motion
+from talus_tools.report.sections.pore import pore_water
 from talus_tools.report.sections.record import parameters, remarks
 from talus_tools.report.sections.runout import runout
 from talus_tools.report.sections.safety import safety
@@ -17,4 +18,4 @@ from talus_tools.report.sections.thalweg import thalweg
 
 # Results first, then how far they can be trusted, then what was run.
 SECTIONS = [safety, maps, motion, runout, bands, obstacles, stations, lines, thalweg, soil,
-            faces, fracture, mass, momentum, energy, remarks, parameters]
+            pore_water, faces, fracture, mass, momentum, energy, remarks, parameters]

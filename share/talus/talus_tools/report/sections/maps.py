@@ -26,6 +26,11 @@ MEANINGS = {
     "final-thickness": ("m", "viridis", "At the last time, in the release area, too."),
     "thickness-at-start": ("m", "viridis", "Before anything moved."),
     "final-mass": ("kg/m^2", "viridis", "Mass per area at the last time."),
+    "largest-pore-pressure-ratio": ("", "viridis", "At the last time, largest over the depth: the "
+                                    "excess pore pressure over the weight of the soil above at "
+                                    "rest."),
+    "excess-pore-pressure-at-the-bed": ("Pa", "viridis", "At the last time, at the base of the "
+                                        "soil."),
     "erosion": ("m", "RdBu_r", "Thickness that a place lost; below zero, what it gained."),
 }
 GROUND = "ground"

@@ -74,26 +74,35 @@ def exaggeration(window, height):
     return f"Heights are drawn about {ratio:.2g} times as large as lengths."
 
 
-def sheared(run, series, way):
-    """Where the soil was sheared, at the end."""
+# Fields at the end: (beginnings of the name, colours, sentence on the field at a time).
+AT_THE_END = [
+    (("plastic strain", "plastic shear strain"), "magma",
+     "Where the soil was sheared at {} ({}): bright bands are slip surfaces and remoulded soil, "
+     "dark blocks travelled as a whole."),
+    (("pore pressure ratio",), "viridis",
+     "At {} the excess pore pressure over the weight of the soil above at rest ({} r_u): at 1 "
+     "friction is lost."),
+]
+
+
+def at_the_end(run, series, way, starts, colors, sentence):
+    """Picture of a field at the end; none where it is not written or nowhere above zero."""
     outlines, values = cut_points(*series.read(series.times[-1]), way)
-    names = [n for n in values if n.startswith(("plastic strain", "plastic shear strain"))]
+    names = [n for n in values if n.startswith(starts)]
     if not names or not values[names[0]].max() > 0:
         return []
     window, height = frame([outlines], 1)
     figure, axes = subplots(height=height + 0.6)
     limit = numpy.percentile(values[names[0]], 98) or values[names[0]].max()
     drawn = axes.add_collection(boxes(outlines, values[names[0]], (0, limit)))
-    drawn.set_cmap("magma")
+    drawn.set_cmap(colors)
     for lines in surfaces(run, series.times[-1], way):
         axes.add_collection(lines)
     axes.set(xlim=window[:2], ylim=window[2:], xlabel=label_of(way), ylabel="y [m]")
     axes.grid(False)
     name = names[0].split(" [")[0]
     figure.colorbar(drawn, ax=axes, label=f"{name} [-]", pad=0.01, extend="max")
-    return [embed(figure, f"Where the soil was sheared at t = {series.times[-1]:.4g} s "
-                  f"({name}): bright bands are slip surfaces and remoulded soil, dark blocks "
-                  "travelled as a whole.", "png")]
+    return [embed(figure, sentence.format(f"t = {series.times[-1]:.4g} s", name), "png")]
 
 
 def soil(run):
@@ -105,5 +114,6 @@ def soil(run):
     where = "" if way is None else f"Upright section along {way.name}. "
     return Section("soil", "The soil in section",
                    f"{where}For all times and fields open points.pvd in ParaView.",
-                   sheared(run, series, way)
+                   [picture for field in AT_THE_END
+                    for picture in at_the_end(run, series, way, *field)]
                    + [Folded("The soil at some times", [frames(run, series, way)])])
