@@ -390,19 +390,36 @@ namespace talus
   template <int dim>
   std::vector<Remark>
   notes_on_undrained_soil(const std::vector<std::unique_ptr<Body<dim>>> &bodies,
-                          const Materials<dim> &materials)
+                          const Materials<dim> &materials,
+                          const bool            changes)
   {
     std::vector<Remark> notes;
     for (unsigned int b = 0; b < bodies.size(); ++b)
-      if (materials.of_body(b).pore_water().stiffness > 0. &&
-          !bodies[b]->initial_state().has_stress())
+      {
+        const WaterResponse<dim> water = materials.of_body(b).pore_water();
+        if (water.stiffness == 0.)
+          continue;
+        const std::string body = "body '" + bodies[b]->name() + "'";
+        if (changes)
+          notes.emplace_back(
+            text(std::setprecision(2),
+                 "'Excess pore pressure/Final' is a pressure at constant "
+                 "volume. Undrained soil swells and keeps about ",
+                 100. * water.soil_bulk / (water.soil_bulk + water.stiffness),
+                 " % of it. Let 'Pore water/Drainage' be drained while a "
+                 "pressure from elsewhere rises."),
+            Severity::look,
+            body);
+        if (bodies[b]->initial_state().has_stress())
+          continue;
         notes.emplace_back("the soil is undrained and has no stress at the "
                            "start: water carries its weight, so that friction "
                            "in the soil, on seabed and obstacles has nearly "
                            "no effective stress. Soil at rest has 'Bodies/" +
                              bodies[b]->name() + "/K0'.",
                            Severity::look,
-                           "body '" + bodies[b]->name() + "'");
+                           body);
+      }
     return notes;
   }
 

@@ -154,7 +154,10 @@ namespace talus
         remark.severity = Severity::information;
     add_remarks(on_stress);
     if (loading.gravity().norm() > 0.)
-      add_remarks(notes_on_undrained_soil(bodies_.list(), materials));
+      add_remarks(notes_on_undrained_soil(
+        bodies_.list(),
+        materials,
+        pore_pressure.changes(0., std::numeric_limits<double>::max())));
     look_at_geometry(state);
     if (bodies_.may_leave_cells())
       send_points_to_owners(points, state.grid);

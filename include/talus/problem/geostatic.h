@@ -67,11 +67,13 @@ namespace talus
                           MPI_Comm              communicator);
 
 
-  /// Return notes on bodies of undrained soil without stress at the start.
+  /// Return notes on bodies of undrained soil without stress at the start, or
+  /// with a pore pressure that @p changes.
   template <int dim>
   std::vector<Remark>
   notes_on_undrained_soil(const std::vector<std::unique_ptr<Body<dim>>> &bodies,
-                          const Materials<dim> &materials);
+                          const Materials<dim> &materials,
+                          bool                  changes);
 } // namespace talus
 
 #endif
