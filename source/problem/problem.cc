@@ -137,13 +137,8 @@ namespace talus
                          loading.share_of_gravity(0.) * loading.gravity(),
                          Ground<dim>(state.grid.domain(), &obstacles),
                          state.communicator());
-    add_remarks(set_preconsolidation(points,
-                                     bodies_.list(),
-                                     materials,
-                                     inputs_,
-                                     state.grid.domain_before_growth(),
-                                     loading.gravity(),
-                                     state.communicator()));
+    add_remarks(set_preconsolidation(
+      state, bodies_.list(), materials, inputs_, loading.gravity()));
     auto on_stress = notes_on_stress_at_rest(points,
                                              bodies_.list(),
                                              materials,

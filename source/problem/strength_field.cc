@@ -247,15 +247,16 @@ namespace talus
 
   template <int dim>
   std::vector<Remark>
-  set_preconsolidation(Points<dim>                                   &points,
+  set_preconsolidation(State<dim>                                    &state,
                        const std::vector<std::unique_ptr<Body<dim>>> &bodies,
                        Materials<dim>                                &materials,
                        const Inputs<dim>                             &inputs,
-                       const Box<dim>                                &domain,
-                       const Tensor<1, dim>                          &gravity,
-                       const MPI_Comm communicator)
+                       const Tensor<1, dim>                          &gravity)
   {
-    const Mudline<dim>  mudline = mudline_of(bodies, domain);
+    Points<dim>       &points       = state.points;
+    const MPI_Comm     communicator = state.communicator();
+    const Mudline<dim> mudline =
+      mudline_of(bodies, state.grid.domain_before_growth());
     Tensor<1, dim>      down;
     std::vector<Remark> notes;
     down[1] = 1.;

@@ -7,6 +7,7 @@
 #include <talus/materials/strength_variation.h>
 #include <talus/problem/body.h>
 #include <talus/problem/inputs.h>
+#include <talus/state/state.h>
 
 #include <deal.II/base/point.h>
 
@@ -68,13 +69,11 @@ namespace talus
   /// stress, or the ratio is less than 1. Collective.
   template <int dim>
   std::vector<Remark>
-  set_preconsolidation(Points<dim>                                   &points,
+  set_preconsolidation(State<dim>                                    &state,
                        const std::vector<std::unique_ptr<Body<dim>>> &bodies,
                        Materials<dim>                                &materials,
                        const Inputs<dim>                             &inputs,
-                       const Box<dim>                                &domain,
-                       const dealii::Tensor<1, dim>                  &gravity,
-                       MPI_Comm communicator);
+                       const dealii::Tensor<1, dim>                  &gravity);
 
 
 
