@@ -127,10 +127,15 @@ namespace talus
          " The factor of safety is found without load steps: remove the line."},
         {"Undrained shear strength",
          " The laws 'von Mises', 'Bingham' and 'Herschel-Bulkley' have it; "
-         "'Mohr-Coulomb' has 'Cohesion' and 'Friction angle'."},
+         "'Mohr-Coulomb' has 'Cohesion' and 'Friction angle', and under "
+         "'modified Cam clay' it is a result."},
         {"Friction angle",
-         " The law 'Mohr-Coulomb' has it; 'von Mises', 'Bingham' and "
-         "'Herschel-Bulkley' have 'Undrained shear strength'."},
+         " The laws 'Mohr-Coulomb' and 'modified Cam clay' have it; 'von "
+         "Mises', 'Bingham' and 'Herschel-Bulkley' have 'Undrained shear "
+         "strength'."},
+        {"Young's modulus",
+         " The stiffness of 'modified Cam clay' follows from the stress and "
+         "the 'Slope of swelling line': remove the line."},
         {"Strain",
          " Static stages always use small strain: remove the line. A body at "
          "large strain comes to rest in the stage 'dynamics', with "

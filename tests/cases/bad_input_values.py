@@ -58,7 +58,7 @@ class BadInputValues(Case):
                 rest[0] = "block"
             elif first == "Obstacles" and len(rest) == 2:
                 rest[0] = "pipe"
-            elif first == "Materials" and len(rest) == 2:
+            elif first == "Materials" and len(rest) >= 2:
                 law = [f"Materials/clay/Law={rest[0]}"]
                 rest[0] = "clay"
             yield "/".join([first, *rest]), value, law
@@ -83,7 +83,10 @@ class BadInputValues(Case):
                 continue
             with self.subTest(path):
                 n_refused += 1
-                self.assert_refused(self.run_file(FULL, [*law, path + "="]),
+                text = FULL
+                if law and "Cam clay" in law[0]:
+                    text = FULL.replace("    set Young's modulus = 1e6\n", "")
+                self.assert_refused(self.run_file(text, [*law, path + "="]),
                                     path.split("/")[-1])
         self.assertGreater(n_refused, 150)
         self.assert_untouched()
