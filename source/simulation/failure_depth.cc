@@ -217,8 +217,8 @@ namespace talus
         sentence_on_coarse_cells(sums.strength / sums.motion,
                                  h * sums.unit_weight / sums.motion);
     // Strength that follows the stress grows towards the base as the load does.
-    const bool is_given = problem.materials.undrained_strength() !=
-                          numbers::invalid_unsigned_int;
+    const bool is_given =
+      problem.materials.undrained_strength() != numbers::invalid_unsigned_int;
     if (const double base = base_of_single_row(sums); base > 0.5 && is_given)
       result.push_back(remark_on_single_row(base, h, factor));
     return result;

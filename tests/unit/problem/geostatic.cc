@@ -145,10 +145,7 @@ namespace geostatic_test
                            gravity,
                            Ground<2>(grid.domain(), &obstacles),
                            MPI_COMM_SELF);
-      return notes_on_stress_at_rest(points,
-                                     bodies,
-                                     materials,
-                                     MPI_COMM_SELF);
+      return notes_on_stress_at_rest(points, bodies, materials, MPI_COMM_SELF);
     }
 
     /// Call action(p, M) with the mass per area above point @p p, kg/m^2.
