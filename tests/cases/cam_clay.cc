@@ -86,8 +86,8 @@ TEST(CamClay, FactorOfSafety)
 
 
 // The pressure rises to half of the weight, and overconsolidated clay between
-// smooth walls swells by kappa/(1 + e_0) ln(p_0/p), p with the attraction, where
-// p_0 - p is (1 + nu)/(3 (1 - nu)) of the pressure.
+// smooth walls swells by kappa/(1 + e_0) ln(p_0/p), p with the attraction. Of
+// the pressure p_0 - p is (1 + nu)/(3 (1 - nu)).
 TEST(CamClay, ColumnSwells)
 {
   const Table table =

@@ -233,8 +233,8 @@ namespace talus
 
 
 
-  /// Set the stiffness in @p strength from the stress @p sigma, Pa, at the start
-  /// of a step. A mean stress that the law does not allow, left by a mean over
+  /// Set the stiffness in @p strength from the stress @p sigma, Pa, before a
+  /// step. A mean stress that the law does not allow, left by a mean over
   /// points, becomes one that it does.
   template <int dim, typename FlowRule, typename Number>
   TALUS_ALWAYS_INLINE void

@@ -62,7 +62,7 @@ namespace talus
 
 
 
-  /// Set the preconsolidation pressure of all points of laws that have one, from
+  /// Set the preconsolidation pressure of the points of laws that have one from
   /// the effective stress at the start: along @p gravity, m/s^2, it was the
   /// overconsolidation ratio times as large. Returns the range of undrained
   /// shear strengths that follows. Throws ExcUser if soil has no effective
