@@ -103,10 +103,10 @@ namespace talus
   /// Modified Cam clay with the critical state of Mohr-Coulomb's criterion: an
   /// ellipse in p and q whose slope M depends on the Lode angle as for a
   /// friction angle, see mohr_coulomb_shear(), a return along the deviator, and
-  /// an elastic volume with p = p_0 exp(-eps_v (1 + e_0)/kappa) @cite roscoe1968
-  /// @cite wood1990. The plastic variable is the preconsolidation pressure. The
-  /// moduli at a point are those of the law times the pressure() at the start
-  /// of the step.
+  /// an elastic volume with p = p_0 exp(-eps_v (1 + e_0)/kappa)
+  /// @cite roscoe1968 @cite wood1990. The plastic variable is the
+  /// preconsolidation pressure. The moduli at a point are those of the law times
+  /// the pressure() at the start of the step.
   struct CamClayFlow
   {
     double friction;      ///< tan(phi) of the critical state [-]
@@ -147,11 +147,12 @@ namespace talus
       return tangent / sqrt(1. + tangent * tangent);
     }
 
-    /// Return of @p trial; @p start is the pressure() at the start.
+    /// Return of @p trial, with the preconsolidation pressure @p p_c and the
+    /// pressure() @p start at the start of the step.
     template <int dim, typename Number, typename Strength>
     TALUS_ALWAYS_INLINE CamClayReturn<Number>
                         equation(const StressStep<dim, Number> &trial,
-                                 const Strength                &preconsolidation,
+                                 const Strength                &p_c,
                                  const Strength                &start,
                                  const Strength                &sine) const
     {
@@ -161,7 +162,7 @@ namespace talus
       const Number share =
         mohr_coulomb_shear<dim, Number>(s, t, sine) / (t * sine);
       return {pressure(trial.mean_after),
-              Number(preconsolidation),
+              Number(p_c),
               share * t,
               2. * shear_modulus * start * share * share,
               elastic_rate,

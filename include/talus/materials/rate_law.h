@@ -82,7 +82,7 @@ namespace talus
     }
 
   protected:
-    /// Variable on which the strength of point @p p depends; 0 for elastic laws.
+    /// Variable on which the strength of point @p p depends; 0 if elastic.
     double
     softening(const Points<dim> &points, const unsigned int p) const;
 
