@@ -105,8 +105,8 @@ namespace talus
   /// friction angle, see mohr_coulomb_shear(), a return along the deviator, and
   /// an elastic volume with p = p_0 exp(-eps_v (1 + e_0)/kappa)
   /// @cite roscoe1968 @cite wood1990. The plastic variable is the
-  /// preconsolidation pressure. The moduli at a point are those of the law times
-  /// the pressure() at the start of the step.
+  /// preconsolidation pressure. The moduli at a point are those of the law
+  /// times the pressure() at the start of the step.
   struct CamClayFlow
   {
     double friction;      ///< tan(phi) of the critical state [-]
