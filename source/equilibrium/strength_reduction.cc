@@ -145,6 +145,20 @@ namespace talus
   StrengthReduction::record_step(const bool         is_found,
                                  const unsigned int n_iterations)
   {
+    // At the limit steps may fail and be found in turn without end, too short
+    // for the displacement to double.
+    constexpr unsigned int many = 1000;
+    if (lower_ > (1. + tolerance_) * lower_before_)
+      {
+        lower_before_ = lower_;
+        n_idle_       = 0;
+      }
+    if (lower_ > 0. && ++n_idle_ > many)
+      {
+        upper_   = lower_;
+        is_done_ = true;
+        return;
+      }
     if (!is_found)
       return shorten_step();
     const double gain = n_iterations <= few    ? growth_
@@ -276,6 +290,8 @@ namespace talus
       : is_past_limit(path_.factor)
         ? ", the largest of the path: the soil softens, and moves on with "
           "smaller factors."
+      : std::isinf(change_by_doubling())
+        ? ", where steps fail and are found in turn."
         : text(std::setprecision(2),
                ": the soil moves on with its strength divided by this; while "
                "the displacement doubled, the factor changed by ",

@@ -141,7 +141,7 @@ namespace talus
     const auto              stress = load_stress<dim, double>(points, p);
     now.mean_after                 = mean_normal(stress);
     now.deviator_after             = add_mean(stress, -now.mean_after);
-    const double pressure_now      = pressure(points, p);
+    const double pressure_now      = rule.pressure(now.mean_after);
     const double shear =
       rule.equation<dim, double>(now, 1., pressure_now, sine).shear;
     const double preconsolidation =
@@ -171,7 +171,13 @@ namespace talus
   ModifiedCamClay<dim>::pressure(const Points<dim> &points,
                                  const unsigned int p) const
   {
-    return attraction_ - mean_normal(load_stress<dim, double>(points, p));
+    auto sigma    = load_stress<dim, double>(points, p);
+    auto strength = this->strength_of(points)(p, double());
+    stiffen<dim>(flow_rule(infinitely_slow),
+                 this->softening(points, p),
+                 strength,
+                 sigma);
+    return strength.stiffness;
   }
 
 

@@ -77,7 +77,8 @@ namespace talus
     for (unsigned int b = 0; b < bodies.size(); ++b)
       {
         const MaterialModel<dim> &law = materials.of_body(b);
-        if (!law.has_strength())
+        // The stiffness of clay by its stress is not for the user to choose.
+        if (!law.has_strength() || law.overconsolidation_ratio() != nullptr)
           continue;
         double G = 0., M = 0., strain = 0.; // the largest
         for (unsigned int p = 0; p < points.size(); ++p)

@@ -198,10 +198,12 @@ namespace talus
                         const unsigned int p,
                         const std::string &body,
                         const std::string &path,
-                        const double       ratio)
+                        const double       ratio,
+                        const double       vertical)
     {
       const auto x = load_place(points, points.initial_position, p);
-      AssertThrow(mean_normal(load_stress<dim, double>(points, p)) < 0.,
+      AssertThrow(vertical > 0. &&
+                    mean_normal(load_stress<dim, double>(points, p)) < 0.,
                   ExcUser(text("The soil of the body '",
                                body,
                                "' has no effective stress at (",
@@ -280,9 +282,10 @@ namespace talus
           if (points.data(points.body)[p] == b)
             {
               const auto   x = load_place(points, points.initial_position, p);
-              const double ratio = field.at(x);
-              check_consolidation(points, p, bodies[b]->name(), path, ratio);
+              const double ratio    = field.at(x);
               const double vertical = vertical_stress(points, p, down);
+              check_consolidation(
+                points, p, bodies[b]->name(), path, ratio, vertical);
               const double strength =
                 material.consolidate(points, p, vertical, ratio);
               range.include(strength);

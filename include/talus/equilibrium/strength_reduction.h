@@ -151,8 +151,10 @@ namespace talus
     double       largest_strength_ = 0;
     StrengthPath path_;
     double growth_ = 0; ///< largest ratio of a step to the previous one [-]
-    unsigned int n_failures_ = 0; ///< one after the other
-    bool         is_done_    = false;
+    unsigned int n_failures_   = 0; ///< one after the other
+    double       lower_before_ = 0; ///< of the steps counted in n_idle_
+    unsigned int n_idle_       = 0; ///< steps that did not raise the factor
+    bool         is_done_      = false;
     /// Displacement, m, and factor [-] after the steps so far.
     std::vector<std::pair<double, double>> places_;
   };

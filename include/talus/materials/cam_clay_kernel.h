@@ -75,10 +75,15 @@ namespace talus
     TALUS_ALWAYS_INLINE Number
     solve(const Mask yields) const
     {
-      Number       x = 0., inner = 0., outer = critical();
-      const Number size =
+      Number x = 0., inner = 0., outer = critical();
+      // Where f changes: at the critical state, or before it, where the
+      // deviator is lost.
+      const Number side = 2. * pressure - preconsolidation;
+      const Number near = max(side, Number(-side)) + 1e-6 * preconsolidation;
+      const Number far =
         max(outer, Number(-outer)) + 1e-6 / (elastic_rate + plastic_rate);
-      const auto failed = until_converged(yields, [&](const Mask active) {
+      const Number size   = far * near / (near + shear_modulus * far);
+      const auto   failed = until_converged(yields, [&](const Mask active) {
         const State state    = at(x);
         const auto  is_inner = state.excess > Number(0.);
         inner                = select(is_inner, x, inner);
@@ -124,6 +129,21 @@ namespace talus
       return max(Number(attraction - mean_stress), Number(1e-6 * attraction));
     }
 
+    /// Pressure, Pa, below which no yield surface of the preconsolidation
+    /// pressure @p p_c contains a deviator with @p square = s:s/2: t^2 <= M^2/3
+    /// p (p_c - p), with at least M^2 = 3.
+    template <typename Number>
+    TALUS_ALWAYS_INLINE Number
+    least_pressure(const Number &square,
+                   const Number &p_c,
+                   const Number &factor) const
+    {
+      const Number s     = sine(factor);
+      const Number slope = 6. * s / (3. - s); // M in triaxial compression
+      return square /
+             (p_c * max(Number(1.), Number(slope * slope * (1. / 3.))));
+    }
+
     /// Bulk modulus, Pa, over a step from the pressure @p start with the
     /// volumetric strain @p volume [-], so that the pressure becomes p_0
     /// exp(-a volume).
@@ -143,7 +163,8 @@ namespace talus
     TALUS_ALWAYS_INLINE Number
     sine(const Number &factor) const
     {
-      const Number tangent = friction * factor;
+      // Soil without friction would have no shape of the yield surface.
+      const Number tangent = max(Number(friction * factor), Number(1e-6));
       return tangent / sqrt(1. + tangent * tangent);
     }
 

@@ -77,7 +77,8 @@ namespace talus
     shear_strength(const Points<dim> &points, unsigned int p) const;
 
     /// Shear stress sqrt(s:s/2) at point @p p over shear_strength() [-]: 1 if
-    /// soil yields, more by viscosity; 0 without strength.
+    /// soil yields (at the critical state, where the law has one), more by
+    /// viscosity; 0 without strength.
     double
     mobilized_strength(const Points<dim> &points, unsigned int p) const;
 

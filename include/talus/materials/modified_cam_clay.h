@@ -50,7 +50,7 @@ namespace talus
     void
     use_initial_pressure(const double largest) override
     {
-      largest_pressure_ = largest;
+      largest_pressure_ = largest + attraction_;
     }
 
     void
@@ -100,7 +100,7 @@ namespace talus
       return largest_pressure_ * (1. + void_ratio_) / swelling_;
     }
 
-    /// CamClayFlow::pressure() of point @p p, Pa.
+    /// Pressure of point @p p that stiffen() finds, Pa.
     double
     pressure(const Points<dim> &points, unsigned int p) const;
 

@@ -260,6 +260,36 @@ namespace cam_clay_test
 
 
 
+  // Whatever the strength factor, the deviator that is left is on the yield
+  // surface.
+  TEST(ModifiedCamClay, SmallStrengthFactors)
+  {
+    const CamClayFlow flow_rule = clay(std::sin(25. * pi / 180.));
+    for (double factor = 1.; factor > 1e-9; factor *= 0.3)
+      for (const double ratio : {1., 1.9, 2.1, 8.})
+        {
+          StressStep<2, double> trial{};
+          trial.mean_before = trial.mean_after = -10.;
+          trial.bulk           = flow_rule.bulk_modulus(10., 0.);
+          trial.deviator_after = {{0., 0., 0., 3.}};
+          const auto flow =
+            flow_rule(trial,
+                      10. * ratio,
+                      PointStrength<double>{0., factor, 10., 0.1, 1.});
+          const auto   after = returned(trial, trial.bulk, flow);
+          const double p     = -after.mean_after;
+          const double p_c   = 10. * ratio + flow.increment;
+          const double shear = after.deviator_after[3] / flow_rule.sine(factor);
+          if (flow.removed == 0.)
+            EXPECT_LE(shear * shear, p * (p_c - p)) << factor << ' ' << ratio;
+          else
+            EXPECT_NEAR(shear * shear, p * (p_c - p), 1e-7 * p_c * p_c)
+              << factor << ' ' << ratio;
+        }
+  }
+
+
+
   // Derivatives of all components by Dual and by differences.
   TEST(ModifiedCamClay, Derivative)
   {
