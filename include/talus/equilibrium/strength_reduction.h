@@ -152,7 +152,7 @@ namespace talus
     StrengthPath path_;
     double growth_ = 0; ///< largest ratio of a step to the previous one [-]
     unsigned int n_failures_   = 0; ///< one after the other
-    double       lower_before_ = 0; ///< of the steps counted in n_idle_
+    double       lower_before_ = 0; ///< lower_ before n_idle_ steps
     unsigned int n_idle_       = 0; ///< steps that did not raise the factor
     bool         is_done_      = false;
     /// Displacement, m, and factor [-] after the steps so far.

@@ -134,9 +134,9 @@ namespace talus
     /// p (p_c - p), with at least M^2 = 3.
     template <typename Number>
     TALUS_ALWAYS_INLINE Number
-    least_pressure(const Number &square,
-                   const Number &p_c,
-                   const Number &factor) const
+    smallest_pressure(const Number &square,
+                      const Number &p_c,
+                      const Number &factor) const
     {
       const Number s     = sine(factor);
       const Number slope = 6. * s / (3. - s); // M in triaxial compression

@@ -247,9 +247,9 @@ namespace talus
     const auto   s    = add_mean(sigma, Number(-mean));
     strength.stiffness =
       max(flow_rule.pressure(mean),
-          Number(flow_rule.least_pressure(Number(0.5 * contract(s, s)),
-                                          plastic_variable,
-                                          strength.factor)));
+          Number(flow_rule.smallest_pressure(Number(0.5 * contract(s, s)),
+                                             plastic_variable,
+                                             strength.factor)));
     strength.compliance = 1. / strength.stiffness;
     sigma = add_mean(s, Number(flow_rule.attraction - strength.stiffness));
   }
