@@ -124,6 +124,27 @@ namespace talus
                        state.constants.box_shape.rule,
                        inputs_.constants);
       }
+    set_strength_and_stress(state);
+    look_at_geometry(state);
+    if (bodies_.may_leave_cells())
+      send_points_to_owners(points, state.grid);
+    trigger.choose_points(points,
+                          inputs_.constants,
+                          inputs_.surfaces.named(),
+                          state.communicator());
+    trigger.check_seabed_region(
+      Utilities::MPI::sum(contact.slip().n_triggered(), state.communicator()));
+  }
+
+
+
+  /// The K0 stress needs the pressure, and the preconsolidation pressure the
+  /// stress. Collective.
+  template <int dim>
+  void
+  Problem<dim>::set_strength_and_stress(State<dim> &state)
+  {
+    Points<dim> &points = state.points;
     set_undrained_strength(points,
                            bodies_.list(),
                            materials,
@@ -153,20 +174,11 @@ namespace talus
         bodies_.list(),
         materials,
         pore_pressure.changes(0., std::numeric_limits<double>::max())));
-    look_at_geometry(state);
-    if (bodies_.may_leave_cells())
-      send_points_to_owners(points, state.grid);
-    trigger.choose_points(points,
-                          inputs_.constants,
-                          inputs_.surfaces.named(),
-                          state.communicator());
-    trigger.check_seabed_region(
-      Utilities::MPI::sum(contact.slip().n_triggered(), state.communicator()));
   }
 
 
 
-  /// Before the K0 stress, which needs the pressure. Collective.
+  /// Collective.
   template <int dim>
   void
   Problem<dim>::set_pore_pressure(State<dim> &state) const

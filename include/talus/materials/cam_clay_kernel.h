@@ -76,8 +76,9 @@ namespace talus
     solve(const Mask yields) const
     {
       Number x = 0., inner = 0., outer = critical();
-      // Where f changes: at the critical state, or before it, where the
-      // deviator is lost.
+      // The iteration ends by steps that are small against the distance over
+      // which f changes: that to the critical state, or the shorter one over
+      // which little strength removes the deviator.
       const Number side = 2. * pressure - preconsolidation;
       const Number near = max(side, Number(-side)) + 1e-6 * preconsolidation;
       const Number far =
@@ -200,8 +201,8 @@ namespace talus
                                   preconsolidation,
                                   strength.stiffness,
                                   sine(strength.factor));
-      // One more step of Newton's method, with all numbers, gives the
-      // derivatives of the root, too.
+      // The root is found without derivatives. A last step of Newton's method
+      // by numbers with derivatives gives those of the root.
       using Plain = std::decay_t<decltype(value_of(exact.shear))>;
       const CamClayReturn<Plain> plain{value_of(exact.pressure),
                                        value_of(exact.preconsolidation),

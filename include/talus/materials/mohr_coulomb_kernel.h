@@ -83,7 +83,7 @@ namespace talus
   mohr_coulomb_share(const Stress<dim, double> &stress, const double sine)
   {
     const auto   s = add_mean(stress, -mean_normal(stress));
-    const double t = std::sqrt(0.5 * contract(s, s));
+    const double t = shear_stress(stress);
     return t > 0. ? mohr_coulomb_shear<dim, double>(s, t, sine) / t : 1.;
   }
 

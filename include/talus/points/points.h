@@ -444,7 +444,6 @@ namespace talus
   {
     return dealii::Point<dim>(load_vector(points, column, p));
   }
-
 } // namespace talus
 
 #endif

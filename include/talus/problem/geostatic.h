@@ -66,7 +66,6 @@ namespace talus
                           const Materials<dim> &materials,
                           MPI_Comm              communicator);
 
-
   /// Return notes on bodies of undrained soil without stress at the start, or
   /// with a pore pressure that @p changes.
   template <int dim>

@@ -189,6 +189,8 @@ namespace talus
 
   private:
     void
+    set_strength_and_stress(State<dim> &state);
+    void
     set_pore_pressure(State<dim> &state) const;
     void
     look_at_geometry(const State<dim> &state);

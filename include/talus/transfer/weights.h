@@ -60,6 +60,7 @@ namespace talus
                    std::vector<NodeWeight<dim>> &weights);
 
 
+
   /// Weights of the box of point @p p at the four nodes of the patch of its
   /// cell along axis @p d [-].
   template <int dim>

@@ -72,7 +72,6 @@ namespace talus
     w.gradient[1]           = (b - 1.) - 2. * a;
     return w;
   }
-
 } // namespace talus
 
 #endif
